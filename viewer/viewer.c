@@ -322,6 +322,7 @@ static void make_quick(const viewer *v, paint_scene *scene) {
     }
     if (v->gaussian_levels) {
         scene->coarse = true;
+        options->lod.load_s = 0.5 * options->render.budget_s; // of streamed ones
         options->gaussians.merge_px = fmax(options->gaussians.merge_px, MOVING_MERGE_PX * plainness[v->plain].coarser);
     }
     const uint32_t minimum = min_divisor(v), wanted = plainness[v->plain].divisor;

@@ -27,7 +27,8 @@ typedef struct lod_arguments {
              "all"},                                                                                         \
         {"memory", LOD_MEMBER(offset, memory_bytes),                                                         \
          .help = "for the nodes of octrees that are drawn from their levels: 512M, 8G; a picture that "      \
-                 "needs more at a time is drawn in bands, the same bytes"},                                  \
+                 "needs more at a time is drawn in bands, the same bytes; and for streamed Gaussians, coarser "  \
+                 "ones where all that is wanted would take more"},                                           \
         {"lod-spacing", LOD_MEMBER(offset, spacing_px),                                                      \
          .help = "of an octree, nodes are drawn by surfels that represent their points where these are no "  \
                  "farther apart on the screen"},                                                             \
@@ -39,8 +40,8 @@ typedef struct lod_arguments {
     },                                                                                                       \
     {                                                                                                        \
         "max-splats", LOD_MEMBER(offset, max_splats),                                                        \
-            .help = "draw about so many surfels and points of octrees: where it would be more, spacing and " \
-                    "error grow by one factor; 0: 8 for each pixel that they cover"                          \
+            .help = "draw about so many surfels and points of octrees, or streamed Gaussians: where it would be more, spacing and " \
+                    "error, or the pixels of --gaussian-merge, grow by one factor; 0: 8 surfels for each pixel that they cover"                          \
     }
 
 void lod_input_set_defaults(lod_arguments *arguments);

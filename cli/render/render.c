@@ -362,7 +362,7 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
         ewa_scene_draw_panorama(scene->scene, painter->renderer, camera, NULL, &scene->panorama, frame, &took);
     if (status != EWA_OK) return status;
     *stats = took.render;
-    if (scene->octrees) render_report_add_lod(painter->report, &took.lod);
+    if (scene->octrees || took.lod.node_count) render_report_add_lod(painter->report, &took.lod);
     const ewa_canvas canvas = {frame->rgba8, camera->width_px, camera->height_px};
     const ewa_status drawn =
         scene->outlines

@@ -71,7 +71,7 @@ typedef struct ewa_lod_options {
     /// screen's white, as measured when the file was made; [0, 255]; default 3; 0: always all points.
     double error;
     /// Nodes that are kept in memory, and what is drawn at a time: where a picture needs more, it is drawn in
-    /// bands, the same bytes; [16777216, 1.125899907e15]; default 1073741824
+    /// bands, the same bytes; and levels of streamed Gaussians, coarser ones where more is needed; [16777216, 1.125899907e15]; default 1073741824
     uint64_t memory_bytes;
     /// Seconds for reading nodes: what has not been read then, or does not fit in memory, is drawn coarser,
     /// and counted as missing. The coarsest and what is large in the middle of the picture come first; [0,
@@ -82,8 +82,8 @@ typedef struct ewa_lod_options {
     /// default 0
     uint32_t share;
     uint32_t share_count; ///< [0, 1048576]; default 0: no parts
-    /// About so many surfels or points are drawn of octrees: where it would be more, spacing and error grow by one
-    /// factor; [0, 9.007199255e15]; default 0: 8 for each pixel that they cover
+    /// About so many surfels or points are drawn of octrees, or streamed Gaussians: where it would be more, spacing and error, or merge_px, grow by
+    /// one factor; [0, 9.007199255e15]; default 0: 8 for each pixel that they cover
     uint64_t max_splats;
     /// Nothing is read: the picture is drawn of the nodes in memory (ewa_scene_reader), what it lacks is drawn coarser and
     /// counted as missing, and an octree of which nothing is in memory is not drawn; default false

@@ -66,7 +66,7 @@ typedef struct ewa_asset_options {
     /// default: where they are.
     double to_world[16];
     bool gaussians_as_surfels; ///< trained Gaussians become a surface, in their constant colours; default false
-    bool gaussian_levels;      ///< trained Gaussians get levels (ewa_splats_create()); default false
+    bool gaussian_levels;      ///< trained Gaussians get levels (ewa_splats_create()), but for streamed ones, which have some; default false
     ewa_octree_levels levels;  ///< default EWA_OCTREE_AUTO
     double cutoff;             ///< F that axes of a mesh's points are made for; (0, 4]; default 3
     /// Of volumes: a file of a transfer function or the name of a preset, borrowed during the call; default NULL, as
@@ -405,7 +405,7 @@ EWA_API ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer);
 /// What a frame took.
 typedef struct ewa_scene_stats {
     ewa_render_stats render;   ///< surfaces, and what of Gaussians and volumes is counted alike: splats, culled, drawn
-    ewa_lod_stats lod;         ///< of octrees; zeros without
+    ewa_lod_stats lod;         ///< of octrees, and what of streamed Gaussians is chosen and read; zeros without
     ewa_volume_stats volumes;  ///< of volumes, summed; zeros without
     double total_s;            ///< wall clock
 } ewa_scene_stats;

@@ -291,7 +291,7 @@ class LodOptions(TypedDict, total=False):
     spacing_px: float | None
     #: and expected to be off by no more than so much, rms, in 1/255; 0: all points; [0, 255], default 3
     error: float | None
-    #: memory for nodes; a picture that needs more is drawn in bands; [16777216, 1.125899907e15], bytes, default 1073741824
+    #: memory for nodes; a picture that needs more is drawn in bands; and for streamed Gaussians, coarser ones where it needs more; [16777216, 1.125899907e15], bytes, default 1073741824
     memory_bytes: int | None
     #: time for reading nodes; what is missing then is drawn coarser; 0: as long as it takes; [0, 1e15], s, default 0
     load_s: float | None

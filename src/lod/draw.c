@@ -31,7 +31,7 @@ static const ewa_option lod_rows[] = {
      .help = "and expected to be off by no more than so much, rms, in 1/255; 0: all points"},
     {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_options, memory_bytes), 0x1p24, 0x1p50,
      .initial = 0x1p30, .unit = "bytes",
-     .help = "memory for nodes; a picture that needs more is drawn in bands"},
+     .help = "memory for nodes; a picture that needs more is drawn in bands; and for streamed Gaussians, coarser ones where it needs more"},
     {"load_s", EWA_OPTION_F64, offsetof(ewa_lod_options, load_s), 0, 1e15, .unit = "s",
      .help = "time for reading nodes; what is missing then is drawn coarser; 0: as long as it takes"},
     {"share", EWA_OPTION_U32, offsetof(ewa_lod_options, share), 0, 0x1p20,

@@ -12,6 +12,7 @@
 #include "ewa/diagnosis.h"
 #include "ewa/gaussian_io.h"
 #include "io/file.h"
+#include "scene/streamed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -103,6 +104,7 @@ void ewa_asset_release(ewa_asset **given) {
     if (asset->owns_parts) {
         ewa_lod_close(&asset->lod);
         ewa_splats_destroy(&asset->splats);
+        ewa_asset_stream_free(&asset->stream);
         ewa_voxels_destroy(&asset->voxels);
     }
     ewa_context_destroy(&asset->lod_context); // its clouds are gone by now
@@ -165,6 +167,9 @@ static ewa_status load_gaussians(const ewa_asset_job *job, const char *path) {
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     const double started_s = ewa_now_s();
+    bool streamed = false;
+    if (!job->options->gaussians_as_surfels) EWA_TRY(ewa_asset_stream_gaussians(job, path, &streamed));
+    if (streamed) return EWA_OK;
     EWA_TRY(ewa_gaussians_load(asset->context, path, &set, &facts));
     ewa_report(asset->context, EWA_SEVERITY_INFO, "%u Gaussians read in %.3f s (%s)", set.count,
                ewa_now_s() - started_s, ewa_gaussian_format_name(facts.format));

@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "scene/octree.h"
+#include "scene/streamed.h"
 #include "surface/eye_dome.h"
 #include "surface/packets.h"
 
@@ -59,6 +60,7 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     free_planes(renderer);
     ewa_scene_renderer_free_lists(renderer);
     ewa_details_free(context, &renderer->details);
+    ewa_streams_free(context, &renderer->streams);
     ewa_release(context, renderer, 1, sizeof *renderer);
 }
 
@@ -119,6 +121,7 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
             shown->splat_colors[shown->splats_count] = ewa_surface_splat_colors(scene->surface, asset);
             shown->splats[shown->splats_count++] = ewa_item_splats(&scene->items[i]);
             shown->near_world = fmin(shown->near_world, asset->near_world);
+            shown->streamed = shown->streamed || asset->stream;
         }
         if (!asset->voxels) continue;
         if (shown->volume_count == EWA_MAX_MIXED_VOLUMES)
@@ -337,6 +340,7 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     const bool elsewhere =
         exchange->swap && exchange->picture_rank != EWA_ALL_RANKS && exchange->picture_rank != exchange->rank;
     if (elsewhere) return EWA_OK;
+    if (shown.streamed) EWA_TRY(ewa_streams_choose(scene, renderer, camera, options, &shown, &stats->lod));
     return options->render.eye_dome > 0 && (frame->rgba || frame->rgba8)
                ? draw_lit(renderer, &shown, camera, options, &among, frame, stats)
                : draw_mixture(renderer, &shown, camera, options, &among, frame, stats);

@@ -10,6 +10,16 @@
 #include "scene/detail.h"
 #include "scene/parts.h"
 
+/// What of streamed Gaussians is in memory (streamed.c).
+typedef struct ewa_streams {
+    ewa_buffer caches;         ///< of each asset that is shown,
+    uint32_t cache_count;
+    uint64_t frame, bytes;     ///< pictures so far; of all that is in memory
+    ewa_buffer views, missing, unused; ///< of a picture: leaves that it shows; what is to be read; what need not stay
+    ewa_buffer splats, colors; ///< what it is drawn of
+    bool told;                 ///< that it is coarser than it was to be
+} ewa_streams;
+
 struct ewa_scene_renderer {
     ewa_context *context;
     ewa_exchange exchange; ///< swap NULL: one process
@@ -23,6 +33,7 @@ struct ewa_scene_renderer {
     uint32_t level;              ///< of surfels in memory, of the frame (details)
     double finer;                ///< pixels of a frame for one of those that sizes of points are told in; 0: 1
     ewa_details details;         ///< of the surfels that are drawn
+    ewa_streams streams;
     ewa_buffer appearances, appearance_list; ///< of the octrees: one ewa_octree_appearance each, and a pointer to its appearance
 };
 
@@ -36,6 +47,7 @@ typedef struct ewa_scene_shown {
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
     const ewa_voxels *voxels[EWA_MAX_MIXED_VOLUMES]; ///< theirs, without what regions hide
     uint32_t surfels_count, lod_count, splats_count, volume_count;
+    bool streamed;     ///< some Gaussians are, whose coarsest level is in the list
     bool colored;      ///< some surface has colours
     bool photographed; ///< all surfaces have the light of photographs
     double near_world; ///< that suits the Gaussians
@@ -45,6 +57,10 @@ typedef struct ewa_scene_shown {
 /// EWA_ERROR_MEMORY.
 ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *options, ewa_scene_renderer *renderer,
                                 ewa_scene_shown *shown);
+
+/// Frees what of streamed Gaussians is in memory.
+void ewa_streams_free(ewa_context *context, ewa_streams *streams);
+
 void ewa_scene_renderer_free_lists(ewa_scene_renderer *renderer);
 
 #endif

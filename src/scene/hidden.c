@@ -40,6 +40,21 @@ bool ewa_left_part_is_of(const ewa_left_part *part, const ewa_scene_options *opt
            (!count || memcmp(part->regions, options->regions, count * sizeof part->regions[0]) == 0);
 }
 
+ewa_status ewa_left_part_make(ewa_context *context, const ewa_scene_options *options, const ewa_splats *splats, const ewa_voxels *voxels,
+                              ewa_left_part **made) {
+    ewa_left_part *part = ewa_allocate_zeroed(context, 1, sizeof *part);
+    *made = part;
+    if (!part) return EWA_ERROR_MEMORY;
+    part->context = context;
+    atomic_init(&part->references, 1);
+    part->region_count = options->region_count;
+    memcpy(part->regions, options->regions, part->region_count * sizeof part->regions[0]);
+    const ewa_status status = splats ? ewa_splats_show(context, splats, is_left, options, &part->splats)
+                                     : ewa_voxels_show(context, voxels, is_left, options, &part->voxels);
+    if (status != EWA_OK) ewa_left_part_release(made);
+    return status;
+}
+
 ewa_status ewa_scene_hide_parts(ewa_scene *scene) {
     const ewa_scene_options *options = &scene->options;
     ewa_status status = EWA_OK;
@@ -48,17 +63,8 @@ ewa_status ewa_scene_hide_parts(ewa_scene *scene) {
         const ewa_asset *asset = item->asset;
         if (ewa_left_part_is_of(item->left, options)) continue;
         ewa_left_part_release(&item->left);
-        if ((!asset->splats && !asset->voxels) || !options->region_count) continue;
-        ewa_left_part *part = ewa_allocate_zeroed(scene->context, 1, sizeof *part);
-        if (!part) return EWA_ERROR_MEMORY;
-        part->context = scene->context;
-        atomic_init(&part->references, 1);
-        part->region_count = options->region_count;
-        memcpy(part->regions, options->regions, part->region_count * sizeof part->regions[0]);
-        status = asset->splats ? ewa_splats_show(scene->context, asset->splats, is_left, options, &part->splats)
-                               : ewa_voxels_show(scene->context, asset->voxels, is_left, options, &part->voxels);
-        item->left = part;
-        if (status != EWA_OK) ewa_left_part_release(&item->left);
+        if ((asset->splats || asset->voxels) && options->region_count)
+            status = ewa_left_part_make(scene->context, options, asset->splats, asset->voxels, &item->left);
     }
     return status;
 }

@@ -14,6 +14,8 @@
 
 #include <stdatomic.h>
 
+typedef struct ewa_asset_stream ewa_asset_stream;
+
 struct ewa_asset {
     ewa_context *context;
     atomic_uint_fast32_t references;
@@ -47,7 +49,8 @@ struct ewa_asset {
     ewa_lod *lod;
     ewa_context *lod_context; ///< of its own; NULL: that of the asset
     const ewa_surfels *surfels; ///< of another owner
-    ewa_splats *splats;
+    ewa_splats *splats; ///< of streamed Gaussians the coarsest level
+    ewa_asset_stream *stream; ///< the others; NULL: there are none
     ewa_voxels *voxels;
     bool owns_parts;    ///< the octree, the splats and the voxels are its own
     ewa_cloud *outline; ///< of octrees, Gaussians, volumes and resident surfels: places to have in the picture, with
@@ -195,6 +198,9 @@ void ewa_completed_release(ewa_completed **completed);
 
 /// Makes what the regions of a scene leave of its Gaussians and volumes.
 ewa_status ewa_scene_hide_parts(ewa_scene *scene);
+/// Makes what they leave of splats, or, where these are NULL, of voxels.
+ewa_status ewa_left_part_make(ewa_context *context, const ewa_scene_options *options, const ewa_splats *splats, const ewa_voxels *voxels,
+                              ewa_left_part **part);
 /// Whether that is what the regions leave; of NULL, whether there are none.
 bool ewa_left_part_is_of(const ewa_left_part *part, const ewa_scene_options *options);
 void ewa_left_part_release(ewa_left_part **part);

@@ -366,7 +366,7 @@ void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info) {
         info->gaussians |= asset->kind == EWA_ASSET_GAUSSIANS;
         ewa_splats_info splats = {.has_levels = false};
         ewa_splats_describe(asset->splats, &splats);
-        info->gaussian_levels |= splats.has_levels;
+        info->gaussian_levels |= splats.has_levels || asset->stream;
         info->volumes |= asset->kind == EWA_ASSET_VOLUME;
         info->surfaces |= ewa_asset_is_points(asset) || asset->kind == EWA_ASSET_SURFELS || info->octrees;
     }

@@ -4,7 +4,7 @@
 // Files of Gaussians in: finds the format and leads there.
 #include "base/platform.h"
 #include "io/file.h"
-#include "io/gaussian/gaussian.h"
+#include "io/gaussian/streamed.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -82,6 +82,21 @@ ewa_status ewa_gaussians_load(ewa_context *context, const char *path, ewa_gaussi
     ewa_status status =
         ewa_gaussians_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
                                   stream ? NULL : path, gaussians, facts);
+    ewa_file_unmap(context, &file);
+    return status;
+}
+
+ewa_status ewa_streamed_open_file(ewa_context *context, const char *path, ewa_streamed *streamed) {
+    const bool stream = strcmp(path, "-") == 0;
+    char inside[EWA_PATH_BYTES];
+    ewa_file file;
+    *streamed = (ewa_streamed){.context = NULL};
+    path = file_of(context, path, inside);
+    EWA_TRY(ewa_file_map(context, path, &file));
+    const ewa_gaussian_source source = {context, stream ? "standard input" : path, stream ? NULL : path, file.bytes, file.size_bytes};
+    const ewa_gaussian_reader *reader;
+    ewa_status status = find_reader(&source, &reader);
+    if (status == EWA_OK && reader == &ewa_gaussians_sog_streamed) status = ewa_streamed_open(&source, streamed);
     ewa_file_unmap(context, &file);
     return status;
 }
