@@ -30,7 +30,8 @@ awk 'BEGIN {
     for (i = 0; i < 300; i++) print (i % 10) / 5 - 1, int(i / 10) / 15 - 1, (i % 7) / 7, (i % 3) - 1, (i % 5) / 5, -1, 1, -2.5, -2.5, -3, 1, 0, 0, 0
 }' >gaussians.ply
 
-kinds="points.ply scan.las other.laz mesh.obj levels.copc.laz gaussians.ply volume.nrrd"
+"$ewa" convert gaussians.ply -o lod-meta.json -q
+kinds="points.ply scan.las other.laz mesh.obj levels.copc.laz gaussians.ply volume.nrrd lod-meta.json"
 : >session.txt
 pairs=""
 later=$kinds
@@ -49,6 +50,6 @@ for pair in $pairs; do
     cmp "$pair.png" drawn.png || fail "$pair differs"
     count=$((count + 1))
 done
-[ $count = 28 ] || fail "$count pairs"
+[ $count = 36 ] || fail "$count pairs"
 ! cmp -s points.ply-scan.las.png points.ply-volume.nrrd.png || fail "all pictures are the same"
 echo "$count pairs"
