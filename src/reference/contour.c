@@ -25,10 +25,11 @@ void ewa_reference_move(const ewa_reference_view *view, const ewa_surfel *surfel
     const double scale = vec3_length(mat3_row(&view->placement.linear, 2));
     const double bend = 2 * fabs(surfel->curvature_world) / scale * depth / view->fx_px;
     const double sigma_px = view->fx_px * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v)) / depth;
-    const double across = hypot(view->prefilter_px, EWA_CONTOUR_WIDTH * sigma_px * sine);
+    const double wide_px = EWA_CONTOUR_WIDTH * sigma_px * sine;
+    const double across = sqrt(view->prefilter_px * view->prefilter_px + wide_px * wide_px);
     const double reach = fmin(EWA_CONTOUR_REACH * across * bend, view->contour_sine2);
     // The key's gradient goes against the lean of a normal that is turned to the viewer.
-    const double x = -n.x / view->fx_px, y = -n.y / view->fy_px, length = hypot(x, y);
+    const double x = -n.x / view->fx_px, y = -n.y / view->fy_px, length = sqrt(x * x + y * y);
     if (!(sine * sine < reach) || !(length > 0)) return;
     const bool turns_away = (surfel->curvature_world > 0) == !splat->is_back;
     const double way = (turns_away ? 1 : -1) * view->contour_shift * across * (1 - sine * sine / reach) / length;

@@ -9,11 +9,12 @@
 
 enum { READ_POINTS = 64 };
 
-/// Whether some surfel that can be drawn is not opaque.
+/// Whether some surfel that can be drawn is not opaque. Points have to be read only where some alpha may be below 1.
 static bool any_transparent(const ewa_surfel_reader *reader, uint64_t count) {
     ewa_surfel surfels[READ_POINTS];
     bool drawable[READ_POINTS];
-    for (uint64_t first = 0; reader->color && first < count; first += READ_POINTS) {
+    const bool has_alpha = reader->color && reader->color->component_count == 4;
+    for (uint64_t first = 0; has_alpha && first < count; first += READ_POINTS) {
         const uint64_t here = count - first < READ_POINTS ? count - first : READ_POINTS;
         ewa_surfel_read(reader, first, here, surfels, drawable);
         for (uint64_t i = 0; i < here; i++)

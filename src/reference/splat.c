@@ -254,7 +254,8 @@ static void make_depth(const ewa_reference_view *view, double half_range, ewa_re
     splat->plane[2] = (flat ? p.z : s) - splat->plane[0] * (view->fx_px * p.x * s + view->cx_px) -
                       splat->plane[1] * (view->fy_px * p.y * s + view->cy_px);
     // what z changes per pixel at the centre
-    const double slope = hypot(splat->plane[0], splat->plane[1]) * (flat ? 1 : p.z * p.z);
+    const double *plane = splat->plane;
+    const double slope = sqrt(plane[0] * plane[0] + plane[1] * plane[1]) * (flat ? 1 : p.z * p.z);
     const double radius = view->cutoff * fmax(vec3_length(splat->axis_u), vec3_length(splat->axis_v));
     const double reach = view->cutoff * view->prefilter_px * slope;
     splat->epsilon = view->tolerance * radius + fmin(reach, EWA_GRAZING_TOLERANCE * radius);
