@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib
 import io
+import re
 import sys
 import unittest
 from typing import Any
@@ -114,6 +115,18 @@ class Torch(Case):
         made["opacity"] = random.uniform(0.3, 0.9, 12)
         made["focal_px"], made["principal_px"] = np.diag(camera.K)[:2].copy(), np.array(camera.K)[:2, 2]
         return {name: torch.tensor(array, requires_grad=True) for name, array in made.items()}, camera
+
+    def test_page(self) -> None:
+        """The example of docs/gradients.md: normals that pictures find again."""
+        page = ROOT / "docs" / "gradients.md"
+        if not page.exists():
+            self.skipTest("not in a checkout")
+        blocks = re.findall(r"```py\n(.*?)```", page.read_text(encoding="utf-8"), re.S)
+        self.assertEqual(len(blocks), 1)
+        names: dict[str, Any] = {}
+        exec(compile(blocks[0], "docs/gradients.md", "exec"), names)
+        self.assertGreater(names["before"], 28)
+        self.assertLess(names["after"], 12)
 
     def test_orthographic_cameras_stay(self) -> None:
         tensors, camera = self.tensors()
