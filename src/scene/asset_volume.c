@@ -6,6 +6,7 @@
 #include "ewa/io.h"
 #include "ewa/prepare.h"
 #include "framing/conventions.h"
+#include "image/volume_upright.h"
 #include "scene/asset.h"
 
 #include <math.h>
@@ -58,6 +59,8 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *g
     asset->flat = asset->source.flat || (word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0));
     memcpy(asset->up_world, ewa_up_of_volumes, sizeof asset->up_world);
     ewa_asset_move_volume(asset->to_world, volume);
+    // A file that knows its patient knows what is up.
+    if (!volume->anatomical) EWA_TRY(ewa_volume_find_up(volume, asset->up_world, &asset->up_why));
     ewa_transfer *chosen = given ? NULL : ewa_allocate(context, 1, sizeof *chosen);
     if (!given && !chosen) return EWA_ERROR_MEMORY;
     const ewa_transfer *transfer = given ? given : chosen;

@@ -41,6 +41,7 @@ struct ewa_asset {
     uint64_t count;
     ewa_bounds bounds;
     double up_world[3], load_s;
+    const char *up_why; ///< for which reason that is up, as ewa_upright.why; NULL: files of its kind have it
     const char *unit; ///< of its lengths, a word of ewa_scene_info.unit; NULL: nothing says it
 
     ewa_cloud *cloud; ///< of points and meshes; NULL: gone, or something else

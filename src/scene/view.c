@@ -54,6 +54,7 @@ typedef struct placement {
     const ewa_framing *framing;
     int up_axis;   ///< 1 y, 2 z, negative: down; 0: nothing says so
     bool up_asked; ///< somebody, and no file, says so
+    const char *up_why; ///< of a file; NULL: its kind has it
     ewa_up_convention convention;
     int suited_view; ///< -1: none
     ewa_framing_info of;
@@ -84,15 +85,16 @@ static const char *file_of(const ewa_asset *asset) {
     return asset->of_octree || asset->lod ? "ept.json" : asset->name;
 }
 
-/// What is up by the first visible file that says so.
-static int up_axis_of(const ewa_scene *scene) {
+/// What is up by the first visible file that says so, and why.
+static int up_axis_of(const ewa_scene *scene, const char **why) {
     // Volumes come last: what else there is was put to them.
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t i = 0; i < scene->count; i++) {
             const ewa_asset *asset = scene->items[i].asset;
             const int axis = up_axis_of_asset(asset);
-            if (scene->items[i].instance.visible && axis && (pass == 0) == (asset->kind != EWA_ASSET_VOLUME))
-                return axis;
+            if (!scene->items[i].instance.visible || !axis || (pass == 0) != (asset->kind != EWA_ASSET_VOLUME)) continue;
+            *why = asset->up_why;
+            return axis;
         }
     return 0;
 }
@@ -114,7 +116,8 @@ ewa_status ewa_scene_find_up(ewa_scene *scene, double up_world[3]) {
     int axis = axis_of(scene->options.up);
     ewa_up_convention convention;
     EWA_TRY(find_convention(scene, &convention));
-    if (!axis) axis = up_axis_of(scene);
+    const char *why;
+    if (!axis) axis = up_axis_of(scene, &why);
     // Heights of surveys are along z, whatever their points look like.
     if (!axis && convention == EWA_UP_Z_SURVEYED) axis = 2;
     if (axis) {
@@ -152,7 +155,7 @@ static void choose_upright(placement *p) {
         (ewa_upright){.axis = axis,
                       .reversed = said < 0,
                       .view = ewa_upright_view(extent, axis),
-                      .why = given || p->up_asked ? "as it was asked for" : "as files of this kind have it"};
+                      .why = given || p->up_asked ? "as it was asked for" : p->up_why ? p->up_why : "as files of this kind have it"};
 }
 
 /// The up vector of the picture, the axis of a turntable and the direction in which a camera without an eye looks.
@@ -293,6 +296,7 @@ static ewa_status measure_upright(ewa_context *context, const ewa_asset *asset, 
     EWA_TRY(ewa_cloud_view(context, places, 0, ewa_cloud_point_count(places), &own));
     placement p = {.context = context,
                    .up_axis = up_axis_of_asset(asset),
+                   .up_why = asset->up_why,
                    .convention = convention,
                    .suited_view = asset->view};
     ewa_view_info info;
@@ -396,10 +400,8 @@ ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *opti
                                   ewa_view_info *info) {
     if (!scene) return EWA_ERROR_ARGUMENT;
     const int asked = axis_of(scene->options.up);
-    placement p = {.context = scene->context,
-                   .up_axis = asked ? asked : up_axis_of(scene),
-                   .up_asked = asked != 0,
-                   .suited_view = view_of_volume(scene)};
+    placement p = {.context = scene->context, .up_axis = asked, .up_asked = asked != 0, .suited_view = view_of_volume(scene)};
+    if (!asked) p.up_axis = up_axis_of(scene, &p.up_why);
     ewa_cloud *outline = NULL;
     bool made = false;
     ewa_status status = ewa_scene_complete(scene);

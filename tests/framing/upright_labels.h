@@ -160,6 +160,23 @@ static const upright_label UPRIGHT_LABELS[] = {
     {"gaussians/minimal.splat", "-y", NULL},
     {"gaussians/pc_short_100_sh3.ply", "-y", NULL},
     {"gaussians/train_3_points.ply", "-y", NULL},
+    {"volumes/HeadMRVolume.mhd", "z", NULL},
+    {"volumes/anatomical.nii", "z", NULL},
+    {"volumes/aneurism.vti", "yz", NULL},
+    {"volumes/aneurism_256x256x256_uint8.raw.gz", "yz", NULL},
+    {"volumes/avg152T1_RL_nifti.nii.gz", "z", NULL},
+    {"volumes/bolt_70x123x66_uint8.raw.gz", "-y", NULL},
+    {"volumes/chris_MRA.nii.gz", "z", NULL},
+    {"volumes/engine_256x256x128_uint8.raw.gz", "z", NULL},
+    {"volumes/headsq_64x64x93_uint16le.raw.gz", "-z", NULL},
+    {"volumes/ironProt.vtk", "yz", NULL},
+    {"volumes/mri_head_128.nrrd", "-y", NULL},
+    {"volumes/neghip.mha", "yz", NULL},
+    {"volumes/nrrd_variants/BallBinary30x30x30.nrrd", "yz", NULL},
+    {"volumes/stent.nrrd", "z", NULL},
+    {"volumes/teem_fmob-c4h.nrrd", "yz", NULL},
+    {"volumes/tooth.nrrd", "z", NULL},
+    {"volumes/visible_male_head_128x256x256_uint8.raw.gz", "-z", NULL},
 };
 enum { UPRIGHT_LABEL_COUNT = sizeof UPRIGHT_LABELS / sizeof UPRIGHT_LABELS[0] };
 
