@@ -126,6 +126,90 @@ CASE(test_numbers) {
     ewa_model_free(&model);
 }
 
+/// Checks that every corner of the triangle over (x, y) has a number of its cell.
+static void hold_cell(const ewa_mesh *mesh, double x, double y, const char *name, ewa_type type, double wanted) {
+    int found = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *v = mesh->triangles + 3 * (size_t)t;
+        bool inside = true;
+        for (int c = 0; c < 3; c++) {
+            const double *a = mesh->positions + 3 * (size_t)v[c], *b = mesh->positions + 3 * (size_t)v[(c + 1) % 3];
+            inside = inside && (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) > 0;
+        }
+        for (int c = 0; c < 3 && inside; c++) hold_numbers(mesh->attributes, name, type, 1, v[c], (const double[]){wanted});
+        found += inside;
+    }
+    assert_int_equal(found, 1);
+}
+
+/// Numbers of cells are those of all corners of their faces; of polygonal data they go by vertices, lines, polygons, strips, in
+/// whatever order these come. Points have arrays of the same names for themselves.
+CASE(test_cell_numbers) {
+    static const char *const cells[] = {
+        TEXT "POINTS 6 float\n0 0 0 2 0 0 2 3 0 0 3 0 4 0 0 4 3 0\n"
+             "TRIANGLE_STRIPS 1 5\n4 1 4 2 5\nVERTICES 1 2 1 0\nLINES 1 3 2 0 1\nPOLYGONS 2 8\n3 0 1 2 3 0 2 3\n"
+             "CELL_DATA 5\nSCALARS id int\nLOOKUP_TABLE default\n1 2 30 40 50\n"
+             "METADATA\nINFORMATION 0\n\nFIELD f 2\nt 1 5 float\n0 0 3.5 4.5 5.5\nMETADATA\nINFORMATION 0\n\nradius 1 5 short\n0 0 3 4 5\n"
+             "POINT_DATA 6\nSCALARS t double\n9 9 9 9 9 9\n",
+        HEAD "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 2 0 0 2 3 0 0 3 0 4 0 0 4 3 0\n"
+             "CELLS 3 13\n3 0 1 2\n3 0 2 3\n4 1 4 2 5\nCELL_TYPES 3\n5 5 6\n"
+             "POINT_DATA 6\nSCALARS t double\n9 9 9 9 9 9\n"
+             "CELL_DATA 3\nSCALARS id int\nLOOKUP_TABLE default\n30 40 50\nFIELD f 2\nt 1 3 float\n3.5 4.5 5.5\nradius 1 3 short\n3 4 5\n",
+    };
+    for (int i = 0; i < 2; i++) {
+        ewa_mesh mesh;
+        mesh_load_bytes(context, &messages, "a.vtk", cells[i], strlen(cells[i]), i == 0, &mesh);
+        const char *of_cells = i ? "cell_t" : "t", *of_points = i ? "t" : "point_t";
+        hold_cell(&mesh, 1.5, 0.1, "id", EWA_I32, 30);
+        hold_cell(&mesh, 0.1, 1, "id", EWA_I32, 40);
+        hold_cell(&mesh, 2.1, 0.1, "id", EWA_I32, 50);
+        hold_cell(&mesh, 0.1, 1, of_cells, EWA_F32, 4.5);
+        hold_cell(&mesh, 3.9, 2.9, of_cells, EWA_F32, 5.5);
+        hold_cell(&mesh, 0.1, 1, "scalar_radius", EWA_I16, 4);
+        hold_cell(&mesh, 0.1, 1, of_points, EWA_F64, 9);
+        ewa_mesh_free(&mesh);
+        ewa_model model;
+        assert_int_equal(ewa_model_load_memory(context, cells[i], strlen(cells[i]), "a.vtk", NULL, EWA_MODEL_POINTS, NULL, &model), EWA_OK);
+        assert_null(ewa_cloud_find(model.points, "id"));
+        ewa_model_free(&model);
+    }
+    // Of a grid the cells at its sides.
+    ewa_mesh mesh;
+    mesh_load_text(context, &messages, "a.vtk",
+                   HEAD "ASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 3 2 3\nX_COORDINATES 3 float\n0 1 2\nY_COORDINATES 2 float\n0 1\n"
+                        "Z_COORDINATES 3 float\n0 1 2\nCELL_DATA 4\nSCALARS id int\nLOOKUP_TABLE default\n1 2 3 4\n", &mesh);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        double middle[3] = {0};
+        for (int c = 0; c < 9; c++) middle[c % 3] += mesh.positions[3 * (size_t)mesh.triangles[3 * t + (uint32_t)c / 3] + (size_t)c % 3] / 3;
+        const double wanted = 1 + (middle[0] > 1) + 2 * (middle[2] > 1);
+        for (int c = 0; c < 3; c++) hold_numbers(mesh.attributes, "id", EWA_I32, 1, mesh.triangles[3 * t + (uint32_t)c], &wanted);
+    }
+    ewa_mesh_free(&mesh);
+}
+
+/// Colours of cells are those of their faces, where points have none.
+CASE(test_cell_colors) {
+    static const char *const colors[] = {
+        "CELL_DATA 2\nSCALARS rgb unsigned_char 3\nLOOKUP_TABLE default\n255 0 0 0 0 255\n",
+        "CELL_DATA 2\nCOLOR_SCALARS rgba 4\n1 0 0 1 0 0 1 1\n",
+        "POINT_DATA 4\nCOLOR_SCALARS p 3\n0 1 0 0 1 0 0 1 0 0 1 0\nCELL_DATA 2\nCOLOR_SCALARS rgb 3\n1 0 0 0 0 1\n",
+        "CELL_DATA 2\nCOLOR_SCALARS rgb 3\n1 0 0 0 0 1\nPOINT_DATA 4\nCOLOR_SCALARS p 3\n0 1 0 0 1 0 0 1 0 0 1 0\n",
+    };
+    for (int i = 0; i < 4; i++) {
+        ewa_mesh mesh;
+        char text[1024];
+        snprintf(text, sizeof text, TEXT POINTS "POLYGONS 2 8\n3 0 1 2 3 0 2 3\n%s", colors[i]);
+        mesh_load_text(context, &messages, "a.vtk", text, &mesh);
+        for (uint32_t t = 0; t < 2; t++)
+            for (int c = 0; c < 3; c++) {
+                const float *color = mesh.colors + 4 * (size_t)mesh.triangles[3 * t + (uint32_t)c];
+                const int wanted = i >= 2 ? 1 : t ? 2 : 0;
+                for (int k = 0; k < 4; k++) assert_true(color[k] == (k == 3 || k == wanted));
+            }
+        ewa_mesh_free(&mesh);
+    }
+}
+
 static void put(uint8_t *bytes, size_t *size, const char *text) {
     memcpy(bytes + *size, text, strlen(text));
     *size += strlen(text);

@@ -144,7 +144,9 @@ static void make_grid(writer *w, int storage, bool big_endian, bool two_pieces) 
         put_array(w, "UInt8", "Name=\"second\" NumberOfComponents=\"3\"", 27, CUBE);
         put_array(w, "Float32", "Name=\"Normals\" NumberOfComponents=\"3\"", 27, normals);
         put(w, "</PointData>\n<CellData>\n");
+        const double id[2] = {10 * piece + 1, 10 * piece + 2};
         put_array(w, "UInt8", "Name=\"no color\" NumberOfComponents=\"3\"", 6, CUBE);
+        put_array(w, "Int32", "Name=\"id\"", 2, id);
         put(w, "</CellData>\n<Points>\n");
         put_array(w, piece ? "Float64" : "Float32", "Name=\"Points\" NumberOfComponents=\"3\"", 27, places);
         put(w, "</Points>\n<Cells>\n");
@@ -170,11 +172,22 @@ CASE(test_storages) {
             assert_non_null(mesh.colors);
             assert_non_null(mesh.normals);
             double end = 0;
+            unsigned seen = 0;
             for (uint32_t i = 0; i < 3 * mesh.triangle_count; i++) end = fmax(end, mesh.positions[3 * (size_t)mesh.triangles[i]]);
             assert_float_equal(end, (way & 2) ? 6 : 1, 0);
             const ewa_attribute *numbers = ewa_cloud_find(mesh.attributes, "t"), *second = ewa_cloud_find(mesh.attributes, "second");
             assert_true(numbers->type == EWA_F64 && second->type == EWA_U8 && second->component_count == 3);
-            assert_null(ewa_cloud_find(mesh.attributes, "no_color")); // of cells
+            assert_null(ewa_cloud_find(mesh.attributes, "no_color")); // of cells whose points have colours
+            const ewa_attribute *ids = ewa_cloud_find(mesh.attributes, "id");
+            for (uint32_t i = 0; i < 3 * mesh.triangle_count; i++) {
+                const uint32_t first = mesh.triangles[i - i % 3], vertex = mesh.triangles[i];
+                double own, its, x = mesh.positions[3 * (size_t)vertex];
+                ewa_attribute_read_f64(ids, first, 1, &own);
+                ewa_attribute_read_f64(ids, vertex, 1, &its);
+                assert_true(own == its && floor(its / 10) == (x >= 5) && fmod(its, 10) >= 1 && fmod(its, 10) <= 2);
+                seen |= 1u << (int)its;
+            }
+            assert_int_equal(seen, way & 2 ? 6 | 6 << 10 : 6);
             for (uint32_t i = 0; i < mesh.vertex_count; i++) {
                 const double *place = mesh.positions + 3 * (size_t)i;
                 double t, three[3];
@@ -193,12 +206,14 @@ CASE(test_storages) {
 CASE(test_polygons) {
     static writer w;
     static const double lines[2] = {0, 8}, line_ends[1] = {2}, strip[4] = {0, 1, 3, 2}, strip_ends[1] = {4},
-                        polygons[7] = {4, 5, 6, 4, 6, 7, 8}, polygon_ends[2] = {3, 7};
+                        polygons[7] = {4, 5, 6, 4, 6, 7, 8}, polygon_ends[2] = {3, 7},
+                        ids[4] = {1, 20, 30, 40}; // strips come before polygons, and their data behind
     for (int storage = 0; storage < STORAGES; storage++) {
         ewa_mesh mesh;
         begin_file(&w, "PolyData", storage, false);
-        put(&w, "<Piece NumberOfPoints=\"9\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"1\" NumberOfPolys=\"2\">\n"
-                "<Points>\n");
+        put(&w, "<Piece NumberOfPoints=\"9\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"1\" NumberOfPolys=\"2\">\n<CellData>\n");
+        put_array(&w, "Int32", "Name=\"id\"", 4, ids);
+        put(&w, "</CellData>\n<Points>\n");
         put_array(&w, "Float64", "NumberOfComponents=\"3\"", 27, CUBE);
         put(&w, "</Points>\n<Verts>\n");
         put_array(&w, "Int32", "Name=\"connectivity\"", 0, lines);
@@ -218,6 +233,12 @@ CASE(test_polygons) {
         mesh_says(&messages, "1 lines beside the faces are left out");
         // The strip is a square, the first polygon half of one; the second is not flat.
         assert_int_equal(mesh.triangle_count, 5);
+        const ewa_attribute *numbers = ewa_cloud_find(mesh.attributes, "id");
+        for (uint32_t t = 0; t < 5; t++) {
+            double id, z = mesh.positions[3 * (size_t)mesh.triangles[3 * t] + 2];
+            ewa_attribute_read_f64(numbers, mesh.triangles[3 * t], 1, &id);
+            assert_float_equal(id, z == 0 ? 40 : t == 2 ? 20 : 30, 0);
+        }
         ewa_mesh_free(&mesh);
     }
 }

@@ -290,7 +290,7 @@ TEST_ON(test_vtk_arrays, 1) {
             put_other(&file, text, 72);
             sample_text(&file, "\nMETADATA\nINFORMATION 0\n\nFIELD f 3\nm 2 24 unsigned_char\n");
             put_other(&file, text, 48);
-            sample_text(&file, "\ntime 1 1 unsigned_char\n");
+            sample_text(&file, "\nMETADATA\nINFORMATION 1\nNAME x LOCATION y\nDATA 1 7\n\ntime 1 1 unsigned_char\n");
             put_other(&file, text, 1);
             sample_text(&file, "\ns 1 24 unsigned_char\n");
         } else if (kind / 2 == 2) { // scalars of cells, behind a field of them

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Numbers of places that have a name in a file of meshes: they become attributes of vertices and points.
+// Numbers of places and cells that have a name in a file of meshes: they become attributes of vertices and points.
 #include "base/base.h"
 #include "io/mesh/build.h"
 
@@ -26,11 +26,23 @@ static void say_left_out(const ewa_mesh_build *build, ewa_text name, const char 
                why);
 }
 
-ewa_status ewa_mesh_find_array(ewa_mesh_build *build, ewa_text name, ewa_type type, uint64_t component_count, uint64_t first,
-                               ewa_mesh_array **array) {
+static void prefix(char name[EWA_NAME_BYTES], const char *before) {
+    const size_t length = strlen(before);
+    memmove(name + length, name, strlen(name) + 1);
+    memcpy(name, before, length);
+}
+
+static ewa_mesh_array *find(const ewa_mesh_build *build, const char *name) {
+    ewa_mesh_array *arrays = build->arrays.items;
+    for (uint64_t i = 0; i < build->arrays.count; i++)
+        if (strcmp(arrays[i].name, name) == 0) return &arrays[i];
+    return NULL;
+}
+
+ewa_status ewa_mesh_find_array(ewa_mesh_build *build, bool of_cells, ewa_text name, ewa_type type, uint64_t component_count,
+                               uint64_t first, ewa_mesh_array **array) {
     static const char before[] = "scalar_";
     char kept[EWA_NAME_BYTES];
-    ewa_mesh_array *arrays = build->arrays.items;
     *array = NULL;
     const bool short_enough = name.length && name.length + sizeof before <= sizeof kept;
     if (short_enough) {
@@ -46,14 +58,14 @@ ewa_status ewa_mesh_find_array(ewa_mesh_build *build, ewa_text name, ewa_type ty
         say_left_out(build, name, "it has not from 1 to 4 numbers for each point");
         return EWA_OK;
     }
-    if (is_taken(kept)) {
-        memmove(kept + sizeof before - 1, kept, strlen(kept) + 1);
-        memcpy(kept, before, sizeof before - 1);
+    if (is_taken(kept)) prefix(kept, before);
+    *array = find(build, kept);
+    if (*array && (*array)->of_cells != of_cells && strlen(kept) + sizeof before <= sizeof kept) {
+        prefix(kept, of_cells ? "cell_" : "point_");
+        *array = find(build, kept);
     }
-    for (uint64_t i = 0; i < build->arrays.count && !*array; i++)
-        if (strcmp(arrays[i].name, kept) == 0) *array = &arrays[i];
     const ewa_mesh_array *same = *array;
-    if (same && (same->type != type || same->component_count != component_count || same->values.count > first)) {
+    if (same && (same->of_cells != of_cells || same->type != type || same->component_count != component_count || same->values.count > first)) {
         say_left_out(build, name, "there is one of that name");
         *array = NULL;
     } else if (!same && build->arrays.count == MAX_ARRAYS) {
@@ -62,7 +74,8 @@ ewa_status ewa_mesh_find_array(ewa_mesh_build *build, ewa_text name, ewa_type ty
         ewa_status status = EWA_OK;
         *array = ewa_mesh_list_add(build, &build->arrays, &status);
         if (!*array) return status;
-        **array = (ewa_mesh_array){.type = type, .component_count = (uint32_t)component_count};
+        **array = (ewa_mesh_array){.type = type, .component_count = (uint32_t)component_count, .of_cells = of_cells};
+        build->has_cell_data |= of_cells;
         (*array)->values.item_bytes = (uint32_t)(component_count * ewa_type_bytes(type));
         memcpy((*array)->name, kept, sizeof kept);
     }
@@ -107,18 +120,24 @@ ewa_status ewa_mesh_add_numbers(ewa_mesh_build *build, ewa_mesh_array *array, co
     return status;
 }
 
-ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, size_t stride, ewa_cloud *cloud) {
+ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, const uint32_t *cells, size_t stride,
+                                ewa_cloud *cloud) {
     const ewa_mesh_array *arrays = build->arrays.items;
     const uint64_t count = ewa_cloud_point_count(cloud);
     for (uint64_t a = 0; a < build->arrays.count; a++) {
         const ewa_mesh_array *array = &arrays[a];
-        const uint32_t bytes = array->values.item_bytes;
+        const uint32_t bytes = array->values.item_bytes, *numbers = array->of_cells ? cells : places;
         void *data;
+        if (array->of_cells && !cells) {
+            ewa_report(build->context, EWA_SEVERITY_NOTE, "%s: array '%s' is of cells: faces have it as they are drawn, points do not",
+                       build->source->name, array->name);
+            continue;
+        }
         EWA_TRY(ewa_memory_check(build->context, count * bytes, "%s: array %s", build->source->name, array->name));
         EWA_TRY(ewa_cloud_add(cloud, array->name, array->type, array->component_count, &data));
         uint8_t *to = data;
         for (uint64_t i = 0; i < count; i++, to += bytes) {
-            const uint64_t place = places ? places[i * stride] : i;
+            const uint64_t place = numbers ? numbers[i * stride] : i;
             if (place < array->values.count)
                 memcpy(to, (const uint8_t *)array->values.items + place * bytes, bytes);
             else

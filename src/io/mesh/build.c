@@ -12,14 +12,14 @@ enum { FIRST_ITEMS = 64 };
 #define FREE_CUT_TESTS ((uint64_t)1 << 26)
 
 void ewa_mesh_build_open(const ewa_mesh_source *source, ewa_mesh_build *build) {
-    *build = (ewa_mesh_build){.source = source, .context = source->context, .look = EWA_MESH_NONE};
+    *build = (ewa_mesh_build){.source = source, .context = source->context, .look = EWA_MESH_NONE, .cell = EWA_MESH_NONE};
     build->positions.item_bytes = 3 * sizeof(double);
-    build->colors.item_bytes = build->face_colors.item_bytes = 4 * sizeof(float);
+    build->colors.item_bytes = build->face_colors.item_bytes = build->cell_colors.item_bytes = 4 * sizeof(float);
     build->texcoords.item_bytes = 2 * sizeof(float);
     build->normals.item_bytes = 3 * sizeof(float);
     build->corners.item_bytes = build->texcoord_corners.item_bytes = build->normal_corners.item_bytes =
         3 * sizeof(uint32_t);
-    build->face_looks.item_bytes = sizeof(uint32_t);
+    build->face_looks.item_bytes = build->face_cells.item_bytes = sizeof(uint32_t);
     build->segments.item_bytes = 2 * sizeof(uint32_t);
     build->looks.item_bytes = sizeof(ewa_mesh_look);
     build->pictures.item_bytes = sizeof(ewa_mesh_picture);
@@ -42,7 +42,8 @@ void ewa_mesh_build_close(ewa_mesh_build *build) {
                                     &build->normals,        &build->corners,     &build->texcoord_corners,
                                     &build->normal_corners, &build->face_colors, &build->face_looks,
                                     &build->looks,          &build->pictures,    &build->scratch,
-                                    &build->segments,    &build->arrays};
+                                    &build->segments,       &build->arrays,      &build->face_cells,
+                                    &build->cell_colors};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
         ewa_release(context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
     *build = (ewa_mesh_build){0};
@@ -156,5 +157,24 @@ ewa_status ewa_mesh_add_triangle(ewa_mesh_build *build, const ewa_mesh_corner *a
         float *color = status == EWA_OK ? ewa_mesh_list_add(build, &build->face_colors, &status) : NULL;
         if (color) memcpy(color, build->face_color, sizeof build->face_color);
     }
+    if (status == EWA_OK && build->cell != EWA_MESH_NONE) {
+        status = fill_up(build, &build->face_cells, before, &none);
+        uint32_t *cell = status == EWA_OK ? ewa_mesh_list_add(build, &build->face_cells, &status) : NULL;
+        if (cell) *cell = build->cell;
+    }
     return status;
+}
+
+ewa_status ewa_mesh_add_cell_color(ewa_mesh_build *build, const float color[4]) {
+    ewa_status status = EWA_OK;
+    float *to = ewa_mesh_list_add(build, &build->cell_colors, &status);
+    if (to) memcpy(to, color, 4 * sizeof *color);
+    build->has_cell_data = true;
+    return status;
+}
+
+void ewa_mesh_begin_cell(ewa_mesh_build *build, uint64_t cell) {
+    build->cell = cell < EWA_MESH_NONE ? (uint32_t)cell : EWA_MESH_NONE;
+    build->has_face_color = cell < build->cell_colors.count;
+    if (build->has_face_color) memcpy(build->face_color, (const float *)build->cell_colors.items + 4 * cell, sizeof build->face_color);
 }

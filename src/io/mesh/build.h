@@ -63,12 +63,13 @@ typedef struct ewa_mesh_corner {
     uint32_t position, texcoord, normal;
 } ewa_mesh_corner;
 
-/// Numbers of places that have a name in the file, by place.
+/// Numbers of places or of cells that have a name in the file, by number of the place or cell.
 typedef struct ewa_mesh_array {
     char name[EWA_NAME_BYTES];
     ewa_type type;
     uint32_t component_count; ///< 1 to 4
-    ewa_mesh_list values;     ///< item_bytes: of one place
+    bool of_cells;
+    ewa_mesh_list values; ///< item_bytes: of one place or cell
 } ewa_mesh_array;
 
 typedef struct ewa_mesh_build {
@@ -83,6 +84,8 @@ typedef struct ewa_mesh_build {
     ewa_mesh_list normal_corners;   ///< 3 normals per triangle; as texcoord_corners
     ewa_mesh_list face_colors;      ///< 4 floats, linear, per triangle; as texcoord_corners
     ewa_mesh_list face_looks;       ///< look per triangle; as texcoord_corners
+    ewa_mesh_list face_cells;       ///< cell per triangle; as texcoord_corners
+    ewa_mesh_list cell_colors;      ///< 4 floats, linear, by cell; none, or for the first cells
     ewa_mesh_list segments;         ///< 2 places each, of lines that readers hand over
     double line_step;               ///< between the places along them; 0: there are none
     ewa_mesh_list looks, pictures;
@@ -92,6 +95,9 @@ typedef struct ewa_mesh_build {
     uint32_t look;       ///< of the next polygons, or none
     float face_color[4]; ///< of the next polygons when has_face_color
     bool has_face_color;
+    uint32_t cell;       ///< of the next polygons, or none
+    uint64_t cell_count; ///< of the parts of the file that have been read; their data go by it
+    bool has_cell_data;  ///< numbers or colours of cells
     bool float_positions;    ///< places come from floats, which may be too coarse
     uint64_t cut_tests_left; ///< bound of the time that cutting polygons may take
     // What was found, to report.
@@ -128,20 +134,28 @@ ewa_status ewa_mesh_add_color(ewa_mesh_build *build, const float missing[4], con
 ewa_status ewa_mesh_add_texcoord(ewa_mesh_build *build, double u, double v);
 ewa_status ewa_mesh_add_normal(ewa_mesh_build *build, const double normal[3]);
 
-/// Finds the array of a name, or begins one of so many numbers by place; those of places before `first` are not known. The
-/// name of an attribute that has a meaning here gets "scalar_" in front: the file did not mean it so. `*array`, which more
+/// Finds the array of a name, or begins one of so many numbers by place, or cell; those before `first` are not known. The
+/// name of an attribute that has a meaning here gets "scalar_" in front: the file did not mean it so; that of an array which the
+/// others, places or cells, have got "point_" or "cell_". `*array`, which more
 /// arrays make invalid, is NULL, after a message, where the name is no UTF-8 or too long, where there are more than four
 /// components or 256 arrays, or where an array of that name has other numbers, or those of the places from `first` on.
 /// Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-ewa_status ewa_mesh_find_array(ewa_mesh_build *build, ewa_text name, ewa_type type, uint64_t component_count, uint64_t first,
-                               ewa_mesh_array **array);
+ewa_status ewa_mesh_find_array(ewa_mesh_build *build, bool of_cells, ewa_text name, ewa_type type, uint64_t component_count,
+                               uint64_t first, ewa_mesh_array **array);
 
-/// Adds the numbers of the next place.
+/// Adds the numbers of the next place or cell.
 ewa_status ewa_mesh_add_numbers(ewa_mesh_build *build, ewa_mesh_array *array, const double *numbers);
 
-/// Gives a cloud the arrays' numbers: of place i, or of place `places[i * stride]`. Places without have NaN, whole numbers 0.
-/// Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, size_t stride, ewa_cloud *cloud);
+/// Gives a cloud the arrays' numbers: of place i, or of place `places[i * stride]` and cell `cells[i * stride]`; `cells` NULL: arrays
+/// of cells are left out, after a message. What has none has NaN, whole numbers 0. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, const uint32_t *cells, size_t stride,
+                                ewa_cloud *cloud);
+
+/// Adds the colour of the next cell, linear, with straight alpha.
+ewa_status ewa_mesh_add_cell_color(ewa_mesh_build *build, const float color[4]);
+
+/// The polygons that follow are of a cell: they have its numbers and its colour.
+void ewa_mesh_begin_cell(ewa_mesh_build *build, uint64_t cell);
 
 /// Adds a line through places, those that are there.
 ewa_status ewa_mesh_add_line(ewa_mesh_build *build, const uint32_t *places, uint64_t count);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // From what a reader filled to a mesh with one number per corner: corners that agree in place, texture
-// coordinates, normal and colour become one vertex. And what was left out is said.
+// coordinates, normal, colour and cell become one vertex. And what was left out is said.
 #include "base/base.h"
 #include "io/mesh/build.h"
 
@@ -17,6 +17,7 @@ typedef struct vertex_key {
     uint32_t position, texcoord, normal;
     uint32_t look;  ///< whose map the texture coordinates go through, or none
     uint32_t color; ///< a triangle with the vertex's colour, or none
+    uint32_t cell;  ///< with the vertex's numbers, or none
 } vertex_key;
 
 typedef struct finish_job {
@@ -45,7 +46,9 @@ static vertex_key key_of(const ewa_mesh_build *build, uint64_t triangle, uint32_
                           corner_of(&build->texcoord_corners, triangle, corner, build->texcoords.count),
                       .normal = corner_of(&build->normal_corners, triangle, corner, build->normals.count),
                       .look = EWA_MESH_NONE,
-                      .color = triangle < build->face_colors.count ? (uint32_t)triangle : EWA_MESH_NONE};
+                      .color = triangle < build->face_colors.count ? (uint32_t)triangle : EWA_MESH_NONE,
+                      .cell = EWA_MESH_NONE};
+    if (triangle < build->face_cells.count) key.cell = ((const uint32_t *)build->face_cells.items)[triangle];
     const uint32_t look = look_of(build, triangle);
     if (look != EWA_MESH_NONE && key.texcoord != EWA_MESH_NONE &&
         ((const ewa_mesh_look *)build->looks.items)[look].mapped)
@@ -63,7 +66,7 @@ static uint64_t mix(uint64_t hash, uint64_t bits) {
 }
 
 static uint64_t hash_of(const ewa_mesh_build *build, const vertex_key *key) {
-    uint64_t hash = mix(mix(mix(0, key->position), (uint64_t)key->texcoord << 32 | key->normal), key->look);
+    uint64_t hash = mix(mix(mix(0, key->position), (uint64_t)key->texcoord << 32 | key->normal), (uint64_t)key->cell << 32 | key->look);
     if (key->color == EWA_MESH_NONE) return hash;
     uint64_t bits[2];
     memcpy(bits, face_color(build, key->color), sizeof bits);
@@ -72,7 +75,7 @@ static uint64_t hash_of(const ewa_mesh_build *build, const vertex_key *key) {
 
 static bool same_vertex(const ewa_mesh_build *build, const vertex_key *a, const vertex_key *b) {
     if (a->position != b->position || a->texcoord != b->texcoord || a->normal != b->normal ||
-        a->look != b->look)
+        a->look != b->look || a->cell != b->cell)
         return false;
     if (a->color == EWA_MESH_NONE || b->color == EWA_MESH_NONE) return a->color == b->color;
     return memcmp(face_color(build, a->color), face_color(build, b->color), 4 * sizeof(float)) == 0;
@@ -245,7 +248,8 @@ static void say_losses(const ewa_mesh_build *build, bool is_mesh, uint64_t not_f
 static ewa_status make_vertices(finish_job *job, bool *same) {
     const ewa_mesh_build *build = job->build;
     const uint64_t triangles = build->corners.count;
-    *same = !build->texcoord_corners.count && !build->normal_corners.count && !build->face_colors.count;
+    *same = !build->texcoord_corners.count && !build->normal_corners.count && !build->face_colors.count &&
+            !build->face_cells.count;
     if (*same) return EWA_OK;
     job->slots = 16;
     while (job->slots < 6 * triangles) job->slots *= 2;
@@ -275,7 +279,7 @@ static ewa_status fill_mesh(finish_job *job, bool same, ewa_mesh *mesh) {
     EWA_TRY(ewa_mesh_create(build->context, vertex_count, triangle_count, material_count, streams, mesh));
     for (uint32_t v = 0; v < vertex_count; v++) {
         const vertex_key key =
-            same ? (vertex_key){v, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE}
+            same ? (vertex_key){v, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE}
                  : job->vertices[v];
         fill_vertex(build, &key, v, mesh);
     }
@@ -284,8 +288,8 @@ static ewa_status fill_mesh(finish_job *job, bool same, ewa_mesh *mesh) {
     if (material_count) fill_materials(build, mesh);
     if (!build->arrays.count) return EWA_OK;
     EWA_TRY(ewa_cloud_create(build->context, vertex_count, &mesh->attributes));
-    return ewa_mesh_fill_arrays(build, same ? NULL : &job->vertices->position, sizeof(vertex_key) / sizeof(uint32_t),
-                                mesh->attributes);
+    return ewa_mesh_fill_arrays(build, same ? NULL : &job->vertices->position, same ? NULL : &job->vertices->cell,
+                                sizeof(vertex_key) / sizeof(uint32_t), mesh->attributes);
 }
 
 ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh) {
@@ -336,7 +340,7 @@ ewa_status ewa_mesh_build_points(ewa_mesh_build *build, ewa_cloud **points) {
     if (status == EWA_OK && has_normals) status = ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, &normal);
     if (status == EWA_OK && build->line_step > 0) status = ewa_cloud_add(made, EWA_RADIUS, EWA_F32, 1, &radius);
     if (status == EWA_OK && radius) status = ewa_cloud_add(made, EWA_SURFACENESS, EWA_F32, 1, &surfaceness);
-    if (status == EWA_OK) status = ewa_mesh_fill_arrays(build, NULL, 0, made);
+    if (status == EWA_OK) status = ewa_mesh_fill_arrays(build, NULL, NULL, 0, made);
     if (status != EWA_OK) {
         ewa_cloud_destroy(&made);
         return status;

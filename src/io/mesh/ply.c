@@ -116,7 +116,7 @@ static ewa_status add_arrays(ply_mesh *mesh, const ewa_cloud *vertices) {
             taken |= strcmp(a->name, texcoord_names[i / 2][i % 2]) == 0;
         ewa_mesh_array *array = NULL;
         if (!taken)
-            EWA_TRY(ewa_mesh_find_array(mesh->build, (ewa_text){a->name, strlen(a->name)}, a->type, a->component_count, 0, &array));
+            EWA_TRY(ewa_mesh_find_array(mesh->build, false, (ewa_text){a->name, strlen(a->name)}, a->type, a->component_count, 0, &array));
         for (uint64_t i = 0; i < count && array; i++) {
             double numbers[4];
             ewa_attribute_read_f64(a, i, 1, numbers);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Meshes in VTK's legacy files: polygonal data, the surface of unstructured grids, the sides of structured and rectilinear
-// ones, in text or in binary. Of the data of points normals, colours of bytes and numbers by name are taken; those of cells are
-// stepped over.
+// ones, in text or in binary. Of the data of points normals, colours of bytes and numbers by name are taken, of those of cells
+// colours and numbers.
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 3 to 17; VTK's reader of legacy files
 // (cells of version 5).
@@ -19,12 +19,14 @@ enum { MAX_FIELDS = 1000, MAX_COMPONENTS = 1000, HEAD_BYTES = 1024 };
 typedef struct vtk_reader {
     ewa_mesh_build *build;
     ewa_cursor cursor;
-    bool text, of_points; ///< the data that come are those of points
+    bool text, of_points, of_cells; ///< the data that come are those of points, of cells
     uint64_t data_count;
     ewa_mesh_list cells;   ///< numbers: how many corners, which
     ewa_mesh_list kinds;   ///< of VTK's numbers, by cell
     ewa_mesh_list offsets; ///< of OFFSETS
     bool has_colors, has_normals;
+    uint64_t group_counts[4]; ///< of polygonal data, as ewa_vtk_cells has them
+    bool grouped;
     bool has_counts;
     uint64_t counts[3];           ///< of a grid's places along its axes
     ewa_mesh_list coordinates[3]; ///< of a rectilinear grid
@@ -164,7 +166,10 @@ static ewa_status read_cells(vtk_reader *r, uint32_t kind) {
     if (!take_count(r, &count) || !take_count(r, &all)) return fail(r, "cells have no numbers");
     const ewa_cursor before = r->cursor;
     double value = 0;
-    if (ewa_text_is_any_case(ewa_cursor_any_word(&r->cursor), "OFFSETS")) {
+    const bool by_offsets = ewa_text_is_any_case(ewa_cursor_any_word(&r->cursor), "OFFSETS");
+    r->grouped |= kind != 0;
+    if (kind) r->group_counts[ewa_vtk_group(kind)] += by_offsets && count ? count - 1 : count;
+    if (by_offsets) {
         ewa_vtk_type type;
         r->offsets.count = 0;
         if (!take_type(r, &type)) return fail(r, "OFFSETS has no type");
@@ -220,11 +225,29 @@ static ewa_status read_cell_types(vtk_reader *r) {
     return EWA_OK;
 }
 
-/// Reads colours of points, codes of bytes or, in text of COLOR_SCALARS, shares.
+/// Reads a colour, codes of bytes or, in text of COLOR_SCALARS, shares.
+static ewa_status read_color(vtk_reader *r, const ewa_vtk_type *type, uint32_t components, float color[4]) {
+    const double scale = type->kind == 'f' ? 1 : 1.0 / 255;
+    double value[4] = {1, 1, 1, 1 / scale};
+    for (uint32_t c = 0; c < components; c++) EWA_TRY(take_number(r, type, &value[c]));
+    ewa_vtk_color(value, scale, color);
+    return EWA_OK;
+}
+
+static ewa_status read_cell_colors(vtk_reader *r, const ewa_vtk_type *type, uint32_t components) {
+    if (r->data_count > UINT64_MAX / components) return fail(r, "an array is too large");
+    EWA_TRY(begin_numbers(r, type, r->data_count * components));
+    for (uint64_t i = 0; i < r->data_count; i++) {
+        float color[4];
+        EWA_TRY(read_color(r, type, components, color));
+        EWA_TRY(ewa_mesh_add_cell_color(r->build, color));
+    }
+    return EWA_OK;
+}
+
 static ewa_status read_colors(vtk_reader *r, const ewa_vtk_type *type, uint32_t components) {
     static const float white[4] = {1, 1, 1, 1};
     ewa_mesh_build *build = r->build;
-    const double scale = type->kind == 'f' ? 1 : 1.0 / 255;
     const uint64_t end = build->positions.count;
     if (r->data_count != end) return fail(r, "there are not as many colours as points");
     EWA_TRY(begin_numbers(r, type, r->data_count * components));
@@ -232,15 +255,18 @@ static ewa_status read_colors(vtk_reader *r, const ewa_vtk_type *type, uint32_t 
     r->has_colors = true;
     // Colours go by place, the last one's.
     for (build->positions.count = 0; build->positions.count < end && status == EWA_OK;) {
-        double value[4] = {1, 1, 1, 1 / scale};
         float color[4];
         build->positions.count++;
-        for (uint32_t c = 0; c < components && status == EWA_OK; c++) status = take_number(r, type, &value[c]);
-        ewa_vtk_color(value, scale, color);
+        status = read_color(r, type, components, color);
         if (status == EWA_OK) status = ewa_mesh_add_color(build, white, color);
     }
     build->positions.count = end;
     return status;
+}
+
+/// Whether colours of so many numbers of these data are still wanted.
+static bool wants_colors(const vtk_reader *r, uint64_t components) {
+    return (components == 3 || components == 4) && ((r->of_points && !r->has_colors) || (r->of_cells && !r->build->cell_colors.count));
 }
 
 static ewa_status read_normals(vtk_reader *r, const ewa_vtk_type *type) {
@@ -257,15 +283,15 @@ static ewa_status read_normals(vtk_reader *r, const ewa_vtk_type *type) {
 
 /// Takes an array of the data of points or cells, as colours where it is such.
 static ewa_status take_data(vtk_reader *r, ewa_text name, const ewa_vtk_type *type, uint64_t components, uint64_t count) {
-    const bool bytes = type->bytes == 1 && type->kind == 'u', of_points = r->of_points && count == r->data_count;
+    const bool bytes = type->bytes == 1 && type->kind == 'u', of_data = count == r->data_count;
     uint64_t all;
-    if (of_points && !r->has_colors && bytes && (components == 3 || components == 4))
-        return read_colors(r, type, (uint32_t)components);
+    if (bytes && of_data && wants_colors(r, components))
+        return r->of_cells ? read_cell_colors(r, type, (uint32_t)components) : read_colors(r, type, (uint32_t)components);
     if (components > MAX_COMPONENTS || __builtin_mul_overflow(count, components, &all))
         return fail(r, "an array is too large");
     ewa_mesh_array *array = NULL;
-    if (of_points && count == r->build->positions.count)
-        EWA_TRY(ewa_mesh_find_array(r->build, name, ewa_vtk_kept_type(type), components, 0, &array));
+    if (of_data && (r->of_cells || (r->of_points && count == r->build->positions.count)))
+        EWA_TRY(ewa_mesh_find_array(r->build, r->of_cells, name, ewa_vtk_kept_type(type), components, 0, &array));
     if (!array) return skip_numbers(r, type, all);
     EWA_TRY(begin_numbers(r, type, all));
     for (uint64_t i = 0; i < count; i++) {
@@ -276,6 +302,12 @@ static ewa_status take_data(vtk_reader *r, ewa_text name, const ewa_vtk_type *ty
     return EWA_OK;
 }
 
+/// Steps over what says how arrays are to be understood, up to an empty line.
+static void skip_metadata(vtk_reader *r) {
+    end_line(&r->cursor);
+    while (r->cursor.at < r->cursor.end && !ewa_is_line_end(*r->cursor.at)) end_line(&r->cursor);
+}
+
 /// Reads arrays; `*known` becomes false at one of no numbers.
 static ewa_status read_fields(vtk_reader *r, bool *known) {
     uint64_t fields, components, count;
@@ -283,7 +315,11 @@ static ewa_status read_fields(vtk_reader *r, bool *known) {
     ewa_cursor_any_word(&r->cursor);
     if (!take_count(r, &fields) || fields > MAX_FIELDS) return fail(r, "FIELD has no number of arrays");
     for (uint64_t i = 0; i < fields; i++) {
-        const ewa_text name = ewa_cursor_any_word(&r->cursor);
+        ewa_text name = ewa_cursor_any_word(&r->cursor);
+        while (ewa_text_is_any_case(name, "METADATA")) {
+            skip_metadata(r);
+            name = ewa_cursor_any_word(&r->cursor);
+        }
         if (!take_count(r, &components) || !take_count(r, &count)) return fail(r, "an array of FIELD has no sizes");
         *known = take_type(r, &type);
         if (!*known) return EWA_OK;
@@ -322,12 +358,6 @@ static uint32_t numbers_of(ewa_text word) {
     return 0;
 }
 
-/// Steps over what says how arrays are to be understood, up to an empty line.
-static void skip_metadata(vtk_reader *r) {
-    end_line(&r->cursor);
-    while (r->cursor.at < r->cursor.end && !ewa_is_line_end(*r->cursor.at)) end_line(&r->cursor);
-}
-
 /// Reads what a word begins; `*known` is whether it is known.
 static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
     ewa_vtk_type type;
@@ -353,6 +383,7 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
     const bool of_points = ewa_text_is_any_case(word, "POINT_DATA");
     if (of_points || ewa_text_is_any_case(word, "CELL_DATA")) {
         r->of_points = of_points;
+        r->of_cells = !of_points;
         return take_count(r, &r->data_count) ? EWA_OK : fail(r, "data have no number");
     }
     if (ewa_text_is_any_case(word, "COLOR_SCALARS") || ewa_text_is_any_case(word, "TEXTURE_COORDINATES")) {
@@ -361,8 +392,8 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
         if (!take_count(r, &count)) return fail(r, "data have no number of components");
         type = r->text ? FLOATS : BYTES;
         if (!colors && !take_type(r, &type)) return fail(r, "TEXTURE_COORDINATES has no type");
-        if (colors && r->of_points && !r->has_colors && (count == 3 || count == 4))
-            return read_colors(r, &type, (uint32_t)count);
+        if (colors && wants_colors(r, count))
+            return r->of_cells ? read_cell_colors(r, &type, (uint32_t)count) : read_colors(r, &type, (uint32_t)count);
         if (count > MAX_COMPONENTS || r->data_count > UINT64_MAX / MAX_COMPONENTS)
             return fail(r, "an array is too large");
         return skip_numbers(r, &type, count * r->data_count);
@@ -412,8 +443,10 @@ static ewa_status read_body(vtk_reader *r) {
                    (unsigned long long)r->cursor.line, ewa_quote(word, quote));
         break;
     }
+    if (r->has_colors) r->build->cell_colors.count = 0; // points' own
     if (r->has_counts) return add_grid(r);
-    const ewa_vtk_cells cells = {r->cells.items, r->cells.count, r->kinds.items, r->kinds.count, r->has_normals};
+    const ewa_vtk_cells cells = {r->cells.items, r->cells.count,  r->kinds.items,
+                                 r->kinds.count, r->has_normals, r->grouped ? r->group_counts : NULL};
     return ewa_vtk_add_cells(r->build, &cells);
 }
 

@@ -290,20 +290,24 @@ static ewa_status add_cell(vtk_surface *surface, cell *taken, uint64_t *face_num
 
 static ewa_status add_all(vtk_surface *surface) {
     const ewa_vtk_cells *cells = surface->cells;
-    uint64_t face_number = 0;
+    ewa_mesh_build *build = surface->build;
+    uint64_t face_number = 0, next[4] = {build->cell_count}; ///< by group, the number of its next cell
+    for (int group = 1; group < 4 && cells->group_counts; group++) next[group] = next[group - 1] + cells->group_counts[group - 1];
     for (int pass = 0; pass < 2; pass++) {
         for (uint64_t i = 0, at = 0; at < cells->number_count && i < cells->kind_count; i++) {
             cell taken = take_cell(cells, i, at);
             cell_face face;
             at += 1 + (uint64_t)taken.count;
+            if (pass == 1 && build->has_cell_data)
+                ewa_mesh_begin_cell(build, cells->group_counts ? next[ewa_vtk_group(taken.kind)]++ : build->cell_count + i);
             if (pass == 1) EWA_TRY(add_cell(surface, &taken, &face_number));
             while (pass == 0 && is_solid(&taken) && next_face(&taken, &face)) EWA_TRY(add_key(surface, &face));
         }
         if (pass == 0) EWA_TRY(find_shared(surface));
     }
     if (surface->unknown_count)
-        ewa_report(surface->build->context, EWA_SEVERITY_WARNING, "%s: VTK: %llu cells of a kind that is not known are left out",
-                   surface->build->source->name, (unsigned long long)surface->unknown_count);
+        ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: VTK: %llu cells of a kind that is not known are left out",
+                   build->source->name, (unsigned long long)surface->unknown_count);
     return EWA_OK;
 }
 
@@ -324,11 +328,14 @@ static ewa_status add_side(ewa_mesh_build *build, uint64_t first, const uint64_t
                            bool has_normals) {
     const uint64_t steps[3] = {1, counts[0], counts[0] * counts[1]};
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const uint64_t width = counts[0] > 1 ? counts[0] - 1 : 1, cell_steps[3] = {1, width, width * (counts[1] > 1 ? counts[1] - 1 : 1)};
+    const uint64_t first_cell = build->cell_count + (far && counts[axis] > 1 ? (counts[axis] - 2) * cell_steps[axis] : 0);
     first += far ? (counts[axis] - 1) * steps[axis] : 0;
     const uint64_t across = steps[far ? u : v], along = steps[far ? v : u];
     for (uint64_t y = 0; y + 1 < counts[v]; y++) {
         for (uint64_t x = 0; x + 1 < counts[u]; x++) {
             const uint64_t at = first + x * steps[u] + y * steps[v];
+            if (build->has_cell_data) ewa_mesh_begin_cell(build, first_cell + x * cell_steps[u] + y * cell_steps[v]);
             const uint64_t places[4] = {at, at + across, at + across + along, at + along};
             ewa_mesh_corner corners[4];
             for (int k = 0; k < 4; k++)

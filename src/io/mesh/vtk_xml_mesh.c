@@ -3,7 +3,7 @@
 //
 // Meshes in VTK's XML files: polygonal data (.vtp), the surface of unstructured grids (.vtu), the sides of structured and
 // rectilinear ones (.vts, .vtr); any number of pieces. Of the data of points, normals, colours of bytes and numbers by name
-// are taken.
+// are taken, of those of cells colours and numbers.
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 12 to 17.
 #include "base/base.h"
@@ -21,6 +21,7 @@ typedef enum role {
     COORDINATES, ///< along x; y and z are the next two
     NORMALS = COORDINATES + 3,
     COLORS,
+    CELL_COLORS,
     TYPES,
     FACES,
     FACE_OFFSETS,
@@ -45,7 +46,8 @@ typedef struct xml_mesh {
     bool structured, rectilinear;
     ewa_xml_tag piece, arrays[ROLE_COUNT];
     bool has[ROLE_COUNT];
-    ewa_xml_tag named[MAX_NAMED]; ///< arrays of points that are numbers
+    ewa_xml_tag named[MAX_NAMED]; ///< arrays that are numbers,
+    bool of_cells[MAX_NAMED];     ///< of points or of cells
     uint32_t named_count;
     uint64_t first; ///< place of the piece's first point
     bool has_normals;
@@ -191,8 +193,26 @@ static ewa_status read_colors(xml_mesh *m, uint64_t count) {
     return status;
 }
 
-/// Reads an array of points that has a name.
-static ewa_status read_named(xml_mesh *m, const ewa_xml_tag *tag, uint64_t count) {
+/// Reads colours of cells, codes of bytes.
+static ewa_status read_cell_colors(xml_mesh *m, uint64_t count) {
+    char value[EWA_VTK_ATTRIBUTE_BYTES];
+    const int components = ewa_vtk_attribute(&m->arrays[CELL_COLORS], "NumberOfComponents", value) && strcmp(value, "4") == 0 ? 4 : 3;
+    numbers n;
+    EWA_TRY(open_numbers(m, CELL_COLORS, &n));
+    ewa_status status = EWA_OK;
+    for (uint64_t i = 0; i < count && status == EWA_OK; i++) {
+        double codes[4] = {0, 0, 0, 255};
+        float color[4];
+        for (int c = 0; c < components && status == EWA_OK; c++) status = take_number(&n, &codes[c]);
+        ewa_vtk_color(codes, 1.0 / 255, color);
+        if (status == EWA_OK) status = ewa_mesh_add_cell_color(m->build, color);
+    }
+    close_numbers(&n);
+    return status;
+}
+
+/// Reads an array of `count` points or cells that has a name; `first`: those of pieces before.
+static ewa_status read_named(xml_mesh *m, const ewa_xml_tag *tag, bool of_cells, uint64_t first, uint64_t count) {
     char name[EWA_VTK_ATTRIBUTE_BYTES], value[EWA_VTK_ATTRIBUTE_BYTES];
     uint64_t components = 1;
     numbers n;
@@ -200,8 +220,8 @@ static ewa_status read_named(xml_mesh *m, const ewa_xml_tag *tag, uint64_t count
     if (ewa_vtk_attribute(tag, "NumberOfComponents", value) && ewa_text_counts(value, 1, &components) != 1) return EWA_OK;
     EWA_TRY(open_array(m, tag, &n));
     ewa_mesh_array *array;
-    ewa_status status = ewa_mesh_find_array(m->build, (ewa_text){name, strlen(name)}, ewa_vtk_kept_type(&n.type), components,
-                                            m->first, &array);
+    ewa_status status = ewa_mesh_find_array(m->build, of_cells, (ewa_text){name, strlen(name)}, ewa_vtk_kept_type(&n.type),
+                                            components, first, &array);
     for (uint64_t i = 0; i < count && array && status == EWA_OK; i++) {
         double values[4];
         for (uint64_t c = 0; c < components && status == EWA_OK; c++) status = take_number(&n, &values[c]);
@@ -285,6 +305,37 @@ static uint64_t last_of(const ewa_mesh_list *list) {
     return 0;
 }
 
+/// How many cells of polygonal data there are, by group.
+static void count_groups(const xml_mesh *m, uint64_t counts[4]) {
+    static const char *const names[] = {"NumberOfVerts", "NumberOfLines", "NumberOfPolys", "NumberOfStrips"};
+    for (int group = 0; group < 4; group++) counts[group] = count_of(m, names[group]);
+}
+
+/// How many cells a piece has; a grid's are those between its `counts` places.
+static uint64_t count_cells(const xml_mesh *m, const uint64_t counts[3]) {
+    uint64_t groups[4], all = count_of(m, "NumberOfCells");
+    count_groups(m, groups);
+    for (int group = 0; group < 4; group++) all += groups[group];
+    if (!m->structured && !m->rectilinear) return all;
+    all = 1;
+    for (int c = 0; c < 3; c++) all *= counts[c] > 1 ? counts[c] - 1 : 1;
+    return all;
+}
+
+/// Reads the numbers and colours of a piece's points and cells.
+static ewa_status read_data(xml_mesh *m, uint64_t point_count, uint64_t cell_count) {
+    ewa_mesh_build *build = m->build;
+    if (m->has[COLORS]) EWA_TRY(read_colors(m, point_count));
+    // Colours of cells go by cell, and are for files whose points have none.
+    if (m->has[CELL_COLORS] && !build->colors.count && build->cell_colors.count == build->cell_count)
+        EWA_TRY(read_cell_colors(m, cell_count));
+    for (uint32_t i = 0; i < m->named_count; i++) {
+        const bool of_cells = m->of_cells[i];
+        EWA_TRY(read_named(m, &m->named[i], of_cells, of_cells ? build->cell_count : m->first, of_cells ? cell_count : point_count));
+    }
+    return EWA_OK;
+}
+
 static ewa_status add_cells(xml_mesh *m) {
     m->cells.count = m->kinds.count = m->faces.count = m->face_offsets.count = 0;
     const uint64_t count = count_of(m, "NumberOfCells");
@@ -297,7 +348,10 @@ static ewa_status add_cells(xml_mesh *m) {
         const uint64_t its = count_of(m, cell_groups[group].count);
         if (its && m->has[CONNECTIVITY + group]) EWA_TRY(read_cells(m, group, its));
     }
-    const ewa_vtk_cells cells = {m->cells.items, m->cells.count, m->kinds.items, m->kinds.count, m->has_normals};
+    uint64_t group_counts[4];
+    count_groups(m, group_counts);
+    const ewa_vtk_cells cells = {m->cells.items, m->cells.count, m->kinds.items,
+                                 m->kinds.count, m->has_normals, count ? NULL : group_counts};
     return ewa_vtk_add_cells(m->build, &cells);
 }
 
@@ -356,9 +410,11 @@ static ewa_status add_piece(xml_mesh *m) {
     // Normals have the numbers of places: of pieces behind one without them none are taken.
     m->has_normals = m->has[NORMALS] && build->normals.count == m->first;
     if (m->has_normals) EWA_TRY(read_normals(m, count));
-    if (m->has[COLORS]) EWA_TRY(read_colors(m, count));
-    for (uint32_t i = 0; i < m->named_count; i++) EWA_TRY(read_named(m, &m->named[i], count));
-    return m->structured || m->rectilinear ? ewa_vtk_add_sides(build, m->first, counts, m->has_normals) : add_cells(m);
+    const uint64_t cell_count = count_cells(m, counts);
+    EWA_TRY(read_data(m, count, cell_count));
+    EWA_TRY(m->structured || m->rectilinear ? ewa_vtk_add_sides(build, m->first, counts, m->has_normals) : add_cells(m));
+    build->cell_count += cell_count;
+    return EWA_OK;
 }
 
 /// Keeps an array of a section, if it is one that is read.
@@ -371,9 +427,12 @@ static void offer_array(xml_mesh *m, const ewa_xml_tag *tag, const char *section
     const bool three = strcmp(components, "3") == 0;
     if (strcmp(section, "Points") == 0) which = POINTS;
     if (strcmp(section, "Coordinates") == 0 && *coordinates < 3) which = COORDINATES + (*coordinates)++;
-    if (strcmp(section, "PointData") == 0) {
+    const bool of_cells = strcmp(section, "CellData") == 0, of_points = strcmp(section, "PointData") == 0;
+    const bool color = strcmp(type, "UInt8") == 0 && (three || strcmp(components, "4") == 0);
+    if (of_cells && color) which = CELL_COLORS;
+    if (of_points) {
         if (three && strcasecmp(name, "Normals") == 0) which = NORMALS;
-        if (strcmp(type, "UInt8") == 0 && (three || strcmp(components, "4") == 0)) which = COLORS;
+        if (color) which = COLORS;
     }
     for (int group = 0; group < CELL_GROUPS; group++) {
         if (strcmp(section, cell_groups[group].section) != 0) continue;
@@ -384,15 +443,15 @@ static void offer_array(xml_mesh *m, const ewa_xml_tag *tag, const char *section
         if (strcmp(name, "faces") == 0) which = FACES;
         if (strcmp(name, "faceoffsets") == 0) which = FACE_OFFSETS;
     }
-    const bool named = strcmp(section, "PointData") == 0 && (which < 0 || m->has[which]) && strcmp(type, "String") != 0;
-    if (named && m->named_count < MAX_NAMED) m->named[m->named_count++] = *tag;
+    const bool named = (of_points || of_cells) && (which < 0 || m->has[which]) && strcmp(type, "String") != 0;
+    if (named && m->named_count < MAX_NAMED) m->of_cells[m->named_count] = of_cells, m->named[m->named_count++] = *tag;
     if (which < 0 || m->has[which]) return;
     m->arrays[which] = *tag;
     m->has[which] = true;
 }
 
 static ewa_status read_body(xml_mesh *m) {
-    static const char *const sections[] = {"Points", "Coordinates", "PointData", "Cells", "Lines", "Strips", "Polys"};
+    static const char *const sections[] = {"Points", "Coordinates", "PointData", "CellData", "Cells", "Lines", "Strips", "Polys"};
     const char *at = m->xml.text, *end = m->xml.has_appended ? m->xml.appended.open : m->xml.end, *section = "";
     bool in_piece = false;
     int coordinates = 0;

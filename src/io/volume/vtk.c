@@ -104,11 +104,22 @@ static bool next_line(vtk_grid *grid, char line[EWA_LINE_BYTES]) {
     return true;
 }
 
+/// Steps over what says how an array is to be understood, up to an empty line.
+static void skip_metadata(vtk_grid *grid) {
+    char line[EWA_LINE_BYTES];
+    while (ewa_text_line(&grid->reader, line) && line[0]) continue;
+}
+
 static ewa_status take_fields(vtk_grid *grid, uint64_t field_count) {
     char line[EWA_LINE_BYTES], words[WORDS][WORD_BYTES];
     for (uint64_t i = 0; i < field_count; i++) {
         uint64_t components, count;
-        if (!next_line(grid, line) || split(line, words) != 4 || ewa_text_counts(words[1], 1, &components) != 1 ||
+        bool more = next_line(grid, line);
+        while (more && strncasecmp(line, "METADATA", 8) == 0) {
+            skip_metadata(grid);
+            more = next_line(grid, line);
+        }
+        if (!more || split(line, words) != 4 || ewa_text_counts(words[1], 1, &components) != 1 ||
             ewa_text_counts(words[2], 1, &count) != 1 || type_of(words[3]) < 0)
             return grid->rank ? EWA_OK : broken(grid->in, "an array of FIELD,", line);
         EWA_TRY(take_array(grid, type_of(words[3]), components, count, OF_FIELD));
@@ -142,7 +153,7 @@ static ewa_status take_dataset(const vtk_grid *grid, const char *kind) {
 static ewa_status take_line(vtk_grid *grid, const char *line, bool *known) {
     const ewa_volume_input *in = grid->in;
     ewa_volume_header *header = grid->header;
-    char words[WORDS][WORD_BYTES], next[EWA_LINE_BYTES];
+    char words[WORDS][WORD_BYTES];
     const int count = split(line, words);
     if (!count) return EWA_OK;
     const char *rest = ewa_text_skip_blanks(line) + strlen(words[0]);
@@ -170,7 +181,7 @@ static ewa_status take_line(vtk_grid *grid, const char *line, bool *known) {
         return grid->text ? skip_numbers(grid, size * grid->data_count, 1)
                           : take_array(grid, EWA_U8, size, grid->data_count, OF_FIELD);
     if (strcasecmp(words[0], "METADATA") == 0) {
-        while (ewa_text_line(&grid->reader, next) && next[0]) continue;
+        skip_metadata(grid);
         return EWA_OK;
     }
     const bool vectors = strcasecmp(words[0], "VECTORS") == 0 || strcasecmp(words[0], "NORMALS") == 0;
