@@ -41,8 +41,7 @@ static void measure(acquire_scene *scene, const char *name, const char *folder) 
     double rms[WAYS][VIEWS];
     ewa_acquire_report reports[WAYS];
     for (int w = 0; w < WAYS; w++) {
-        ewa_acquire_options options;
-        ewa_acquire_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_acquire_options, options);
         options.filter = ways[w].filter;
         options.fit = ways[w].fit;
         options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;

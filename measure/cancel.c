@@ -45,8 +45,7 @@ static bool answer(void *user, const char *stage, double fraction) {
 static uint64_t point_count(void) { return is_quick() ? 20000 : POINTS; }
 
 static void make_points(job_run *run) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = EWA_OBJECT_TERRAIN;
     options.positions_only = true;
     options.point_count = point_count();
@@ -92,8 +91,7 @@ static ewa_status estimate(job_run *run) {
     ewa_cloud *copy = NULL; // which the call fills
     memset(run->marks, 1, point_count());
     check(ewa_cloud_keep(run->cloud, run->marks, &copy));
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     run->asked_s = thread_s();
     const ewa_status status = ewa_cloud_estimate(&copy, &options);
     ewa_cloud_destroy(&copy);
@@ -121,8 +119,7 @@ static ewa_status thin_voxels(job_run *run) {
 }
 
 static ewa_status sample(job_run *run) {
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = point_count() / (run->mesh.texcoords ? 10 : 2);
     ewa_cloud *made = NULL;
     const ewa_status status = ewa_mesh_sample(&run->mesh, &options, &made);
@@ -154,8 +151,7 @@ typedef struct job {
 
 static void print_job(const job *row) {
     job_run run = {0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.message = tell_of_failure;
     options.progress = answer;

@@ -45,16 +45,14 @@ static void save(const far_run *run, const char *what, double times, const float
 static void draw(const far_run *run, double times, uint32_t finer, uint32_t level, uint32_t supersampling,
                  float *rgba) {
     const ewa_camera camera = far_camera(&run->bounds, times, run->side_px, finer);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.level = level, options.supersampling = supersampling;
     check(ewa_render(run->renderer, run->surfels, &camera, &options, &(ewa_frame){.rgba = rgba}, NULL));
 }
 
 static void draw_octree(const far_run *run, double times, uint32_t supersampling, float *rgba) {
     const ewa_camera camera = far_camera(&run->bounds, times, run->side_px, 1);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.supersampling = supersampling;
     check(ewa_lod_render(run->lod, run->renderer, &camera, &options, NULL, &(ewa_frame){.rgba = rgba}, NULL));
 }
@@ -110,8 +108,7 @@ static void print_scene(far_run *run, ewa_cloud *cloud) {
     check(ewa_lod_build(run->context, paths, 1, path, NULL, NULL));
     remove(points);
     check(ewa_lod_open(run->context, path, &run->lod));
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.level_count = LEVEL_COUNT;
     check(ewa_surfels_create(cloud, &options, &run->surfels));
     check(ewa_cloud_measure(cloud, &run->bounds));
@@ -159,8 +156,7 @@ int main(int count, char **words) {
     }
     for (int i = 2; i < count; i++) {
         ewa_cloud *cloud = NULL;
-        ewa_estimate_options estimate;
-        ewa_estimate_options_init(&estimate, sizeof estimate);
+        WITH_DEFAULTS(ewa_estimate_options, estimate);
         check(ewa_cloud_load(run.context, words[i], &cloud));
         check(ewa_cloud_estimate(&cloud, &estimate));
         run.name = strrchr(words[i], '/') ? strrchr(words[i], '/') + 1 : words[i];

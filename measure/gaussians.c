@@ -70,8 +70,7 @@ int main(int argc, char **argv) {
            info.sh_degree, (double)info.resident_bytes / info.splat_count, camera.width_px, camera.height_px,
            ewa_context_worker_count(context));
     for (int n = 0; n < 4; n++) {
-        ewa_gaussian_options options;
-        ewa_gaussian_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_gaussian_options, options);
         options.merge_px = argc > 6 ? atof(argv[6]) : 0;
         options.projection = (ewa_gaussian_projection)(n / 2);
         options.order = n % 2 ? EWA_ORDER_RAY : EWA_ORDER_CENTER;

@@ -67,8 +67,7 @@ static floor_scene make_floor(ewa_context *context, double radius) {
     enum { EXTENT = 5 };
     floor_scene made = {.spacing = radius / EWA_DEFAULT_RADIUS_SCALE};
     const double discs = ceil(EXTENT / made.spacing);
-    ewa_generate_options plane;
-    ewa_generate_options_init(&plane, sizeof plane);
+    WITH_DEFAULTS(ewa_generate_options, plane);
     plane.object = EWA_OBJECT_CHECKER;
     plane.point_count = (uint64_t)(discs * discs);
     plane.size_world = discs * made.spacing;
@@ -109,8 +108,7 @@ static void draw_floor(const floor_scene *of, int view) {
     ewa_camera_set_fov(&camera, 40);
     ewa_camera_look_at(&camera, eye, target, up);
     for (int k = 0; k < FLOOR_KERNELS; k++) {
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.kernel = floor_kernels[k];
         options.shading = EWA_SHADING_NONE;
         options.edge_antialiasing = false;

@@ -6,6 +6,7 @@
 #include "cloud/cloud.h"
 
 #include "base/base.h"
+#include "defaults.h"
 #include "reference/contour.h"
 #include "reference/splat.h"
 #include "surface/options.h"
@@ -36,8 +37,7 @@ static ewa_status paint(ewa_cloud *cloud, const double color[3]) {
 
 static ewa_status make_object(ewa_context *context, ewa_object object, uint64_t point_count,
                               double size_world, const double color[3], ewa_cloud **cloud) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = point_count;
     options.size_world = size_world;

@@ -13,8 +13,7 @@
 enum { COVER_POINTS = 160000, SIDE_PX = 512, WIDTH_PX = 1280, HEIGHT_PX = 1024, ROUNDS = 15 };
 
 static ewa_surfels *make_surfels(const ewa_cloud *cloud, uint32_t level_count, double *took_s) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.level_count = level_count;
     ewa_surfels *surfels = NULL;
     const double start_s = now_s();
@@ -42,8 +41,7 @@ static void print_coverage(ewa_context *context, level_kind kind) {
         for (int v = 0; v < 12; v++) {
             const double distance = (kind == LEVEL_SPHERE) + distances[v / 3];
             const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, distance, tilts[v % 3]);
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.level = level;
             const ewa_frame frame = {.coverage = coverage};
             assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
@@ -105,8 +103,7 @@ static void print_frames(ewa_context *context, uint32_t points) {
         double psnr[2];
         for (int size = 0; size < 2; size++) {
             const ewa_camera camera = level_camera(WIDTH_PX >> 2 * size, HEIGHT_PX >> 2 * size, 2.4, 20);
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.level = level;
             const ewa_frame frame = {.rgba8 = level ? pictures[size] : whole[size]};
             for (int round = 0; round < (size ? 1 : ROUNDS); round++) {

@@ -95,8 +95,7 @@ static comparison compare(const uint8_t *full, const uint8_t *other) {
 }
 
 static ewa_render_options unlit(void) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = getenv("LIT") ? EWA_SHADING_LAMBERT : EWA_SHADING_NONE;
     return options;
 }
@@ -112,16 +111,14 @@ static void save(ewa_context *context, const char *name, const uint8_t *rgba) {
 /// Loads all points as surfels.
 static ewa_cloud *load(ewa_context *context, const char *path, bool has_surfels) {
     ewa_cloud *cloud = NULL;
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     check(ewa_cloud_load(context, path, &cloud));
     if (!has_surfels) check(ewa_cloud_estimate(&cloud, &options));
     return cloud;
 }
 
 static int build(ewa_context *context, int count, char **words) {
-    ewa_lod_build_options options;
-    ewa_lod_build_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_lod_build_options, options);
     if (getenv("MEMORY")) options.memory_bytes = strtoull(getenv("MEMORY"), NULL, 10);
     ewa_lod_build_stats stats;
     check(ewa_lod_build(context, (const char *const *)words + 1, (uint32_t)count - 1, words[0], &options,
@@ -151,8 +148,7 @@ static ewa_surfels *pick(ewa_context *context, const ewa_cloud *cloud, uint64_t 
     ewa_cloud *some = NULL;
     check(ewa_cloud_select(cloud, indices, count, &some));
     free(indices);
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.radius_scale = sqrt((double)all / (double)count);
     ewa_surfels *surfels = NULL;
     check(ewa_surfels_create(some, &options, &surfels));
@@ -186,8 +182,7 @@ static int quality(ewa_context *context, int count, char **words) {
         snprintf(full_name, sizeof full_name, "full_%g", distances[d]);
         save(context, full_name, full);
         for (int s = 0; s < (count > 1 ? count - 1 : 2); s++) {
-            ewa_lod_options lod_options;
-            ewa_lod_options_init(&lod_options, sizeof lod_options);
+            WITH_DEFAULTS(ewa_lod_options, lod_options);
             lod_options.spacing_px = count > 1 ? atof(words[1 + s]) : 0.5 + 0.5 * s;
             lod_options.error = getenv("ERROR") ? atof(getenv("ERROR")) : 255;
             lod_options.memory_bytes = (uint64_t)1 << 33;
@@ -247,8 +242,7 @@ static int dolly(ewa_context *context, int count, char **words) {
         if (count > 2) options.supersampling = (uint32_t)atoi(words[2]);
         if (count > 3) of_octree.supersampling = (uint32_t)atoi(words[3]);
         const ewa_frame full = {.rgba8 = pictures[f & 1]}, part = {.rgba8 = pictures[2 + (f & 1)]};
-        ewa_lod_options lod_options;
-        ewa_lod_options_init(&lod_options, sizeof lod_options);
+        WITH_DEFAULTS(ewa_lod_options, lod_options);
         lod_options.memory_bytes = (uint64_t)1 << 33;
         check(ewa_render(renderer, surfels, &camera, &options, &full, NULL));
         check(ewa_lod_render(lod, renderer, &camera, &of_octree, &lod_options, &part, NULL));
@@ -301,8 +295,7 @@ static int speed(ewa_context *context, int count, char **words) {
     const ewa_camera camera = camera_at(&info.bounds, count > 1 ? atof(words[1]) : 1);
     const ewa_render_options options = unlit();
     const ewa_frame frame = {.rgba8 = rgba};
-    ewa_lod_options lod_options;
-    ewa_lod_options_init(&lod_options, sizeof lod_options);
+    WITH_DEFAULTS(ewa_lod_options, lod_options);
     ewa_lod_stats stats;
     double warm_s = INFINITY, warm_user_s = INFINITY;
     for (int i = 0; i < ROUNDS; i++) {

@@ -5,6 +5,7 @@
 #ifndef EWA_MEASURE_MEASURE_H
 #define EWA_MEASURE_MEASURE_H
 
+#include "defaults.h"
 #include "ewa/ewa.h"
 
 #include <stdbool.h>
@@ -28,8 +29,7 @@ static inline void tell_of_failure(void *user, ewa_severity severity, const char
 
 /// A context of so many workers (0: of all processors) that tells what fails.
 static inline ewa_context *make_context(uint32_t thread_count) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = thread_count;
     options.message = tell_of_failure;
     ewa_context *context = NULL;

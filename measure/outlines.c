@@ -42,15 +42,13 @@ static void print(outline_run *run, const char *what, uint64_t surfels) {
 }
 
 static void print_levels(outline_run *run, const ewa_cloud *cloud, const char *what, uint32_t level_count) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.level_count = level_count;
     ewa_surfels *surfels = NULL;
     check(ewa_surfels_create(cloud, &options, &surfels));
     ewa_surfels_info info;
     ewa_surfels_describe(surfels, &info);
-    ewa_render_options render;
-    ewa_render_options_init(&render, sizeof render);
+    WITH_DEFAULTS(ewa_render_options, render);
     for (uint32_t level = 0; level < info.level_count; level++) {
         render.level = level;
         ewa_render_stats stats;
@@ -81,8 +79,7 @@ static void print_octree(outline_run *run, const ewa_cloud *cloud, const char *w
     ewa_lod *lod = NULL;
     check(ewa_lod_open(run->context, path, &lod));
     for (int i = 0; i < 4; i++) {
-        ewa_lod_options options;
-        ewa_lod_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_lod_options, options);
         options.spacing_px = spacings_px[i];
         options.error = 255;
         options.max_splats = UINT64_C(1) << 40;
@@ -97,8 +94,7 @@ static void print_octree(outline_run *run, const ewa_cloud *cloud, const char *w
 }
 
 static ewa_cloud *estimated(ewa_cloud *cloud) {
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     check(ewa_cloud_estimate(&cloud, &options));
     return cloud;
 }

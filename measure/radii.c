@@ -29,8 +29,7 @@ static void print_row(ewa_context *context, const char *name, const ewa_cloud *c
 }
 
 static void estimate(ewa_cloud **cloud) {
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     const bool has_axes = ewa_cloud_find(*cloud, EWA_TANGENT_U) != NULL;
     options.keep_radii = !has_axes; // radii of a file, as another version wrote them, are judged as they are
     assert_int_equal(ewa_cloud_estimate(cloud, &options), EWA_OK);

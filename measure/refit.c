@@ -17,8 +17,7 @@ enum { SIDE = 800 };
 static bool draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera, float *rgba) {
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
-    ewa_render_options look;
-    ewa_render_options_init(&look, sizeof look);
+    WITH_DEFAULTS(ewa_render_options, look);
     look.shading = EWA_SHADING_NONE;
     const ewa_frame frame = {.rgba = rgba};
     const bool done = ewa_surfels_create(cloud, NULL, &surfels) == EWA_OK &&
@@ -58,8 +57,7 @@ static int compare_clouds(ewa_context *context, const char *fine_path, const cha
     for (int goal = REFIT_PLAIN; done && goal <= EWA_REFIT_FIT; goal++) {
         static const char *const names[] = {"plain", "interpolate", "fit"};
         ewa_cloud *coarse = NULL;
-        ewa_refit_options options;
-        ewa_refit_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_refit_options, options);
         options.goal = (ewa_refit)goal;
         done = ewa_cloud_load(context, coarse_path, &coarse) == EWA_OK &&
                (goal == REFIT_PLAIN || ewa_cloud_refit_colors(coarse, &options, NULL) == EWA_OK) &&

@@ -21,8 +21,7 @@
 static const char *const method_names[] = {"hybrid", "splat", "point", "bilinear"};
 
 static ewa_texture_options options_of(ewa_texture_method method) {
-    ewa_texture_options options;
-    ewa_texture_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_texture_options, options);
     options.method = method;
     return options;
 }

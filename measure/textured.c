@@ -19,8 +19,7 @@ static const uint64_t point_counts[] = {10000, 30000, 100000};
 static const double pixel_sigmas_px[] = {0.5, 1};
 
 static void draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera, ewa_image *picture) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
@@ -86,8 +85,7 @@ int main(int argument_count, char **arguments) {
         for (size_t s = 0; s < sizeof pixel_sigmas_px / sizeof pixel_sigmas_px[0]; s++) {
             printf("| %llu | %g |", (unsigned long long)point_counts[n], pixel_sigmas_px[s]);
             for (int f = 0; f <= EWA_TEXTURE_OPTIMAL; f++) {
-                ewa_mesh_sample_options options;
-                ewa_mesh_sample_options_init(&options, sizeof options);
+                WITH_DEFAULTS(ewa_mesh_sample_options, options);
                 options.point_count = point_counts[n];
                 options.texture_filter = (ewa_texture_filter)f;
                 options.pixel_sigma_px = pixel_sigmas_px[s];

@@ -4,6 +4,7 @@
 // Prints the tables of docs/volume.md about line integrals: the footprint's index as printed in the paper and
 // as it holds, on and off the axis; pictures of a blob and a ball against closed forms; pictures against
 // marched rays.
+#include "defaults.h"
 #include "volume/footprint.h"
 #include "volume/march.h"
 #include "volume/scene.h"
@@ -121,8 +122,7 @@ static void print_closed(ewa_context *context) {
                 kernels[i] = KAPPA * q * q * q / s2 * sqrt(2 * PI) * exp(-d * d / (2 * s2));
                 ball[i] = KAPPA * ball_integral(radius, d);
             }
-        ewa_volume_options options;
-        ewa_volume_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_options, options);
         options.sigma = SIGMA, options.prefilter_px = 0, options.minimum_transmittance = 0;
         options.cutoff = 4;
         for (int v = 0; v < 2; v++) {
@@ -158,8 +158,7 @@ static void print_marched(ewa_context *context) {
         for (int i = 0; i < SIDE_PX * SIDE_PX; i++)
             truth[i] = march_depth(&scene, &camera, i % SIDE_PX + 0.5, i / SIDE_PX + 0.5);
         for (int index = EWA_INDEX_EXACT; index <= EWA_INDEX_TABLE; index++) {
-            ewa_volume_options options;
-            ewa_volume_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_volume_options, options);
             options.method = EWA_VOLUME_SPLATS, options.index = (ewa_volume_index)index;
             options.prefilter_px = 0, options.minimum_transmittance = 0, options.cutoff = 4;
             ewa_image image = scene_draw(context, voxels, &camera, &options);

@@ -54,8 +54,7 @@ int main(int argc, char **argv) {
         for (int far = 0; far < 2; far++) {
             // Splats of 3 px from near, points of 0.8 px from afar.
             ewa_camera camera = scene_camera(SIDE_PX, SIDE_PX, direction, far ? 690 : 183);
-            ewa_volume_options options;
-            ewa_volume_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_volume_options, options);
             ewa_image image = scene_draw(context, voxels, &camera, &options);
             if (argc > 1 && !far && (degrees == 44.5 || degrees == 45.5)) save(&image, argv[1], degrees);
             if (step) {

@@ -102,8 +102,7 @@ int main(int argc, char **argv) {
         const double degrees = (steps < 14 ? 44.75 : first_deg) + step * step_deg, angle = degrees * PI / 180;
         const double direction[3] = {sin(angle), 0.35, -cos(angle)};
         ewa_camera camera = scene_camera(SIDE_PX, SIDE_PX, direction, 105);
-        ewa_volume_options options;
-        ewa_volume_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_options, options);
         options.shading = EWA_SHADING_NONE;
         double eye[3];
         ewa_camera_eye(&camera, eye);

@@ -87,8 +87,7 @@ static figures measure(ewa_context *context, const scene *at) {
     uint8_t *pixels = malloc(4 * (size_t)at->side_px * at->side_px);
     if (!pixels || ewa_volume_renderer_create(context, &renderer) != EWA_OK) exit(1);
     const ewa_frame frame = {.rgba8 = pixels};
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     options.shading = EWA_SHADING_PHONG;
     double times_s[FRAMES];
     for (int i = -2; i < FRAMES; i++) {

@@ -21,8 +21,7 @@ static ewa_image make_truth(ewa_context *context, const ewa_voxels *voxels, cons
     ewa_camera dense = *camera;
     dense.width_px *= SUPER, dense.height_px *= SUPER;
     dense.fx_px *= SUPER, dense.fy_px *= SUPER, dense.cx_px *= SUPER, dense.cy_px *= SUPER;
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     options.method = EWA_VOLUME_SPLATS, options.prefilter_px = 0, options.minimum_transmittance = 0;
     ewa_image samples = scene_draw(context, voxels, &dense, &options), truth;
     check(ewa_image_create(context, camera->width_px, camera->height_px, 4, &truth));
@@ -62,8 +61,7 @@ static void zoom(ewa_context *context, const ewa_volume *volume, float extinctio
         ewa_image truth = make_truth(context, voxels, &camera), drawn[METHODS];
         double psnr_db[METHODS], share = 0;
         for (int m = 0; m < METHODS; m++) {
-            ewa_volume_options options;
-            ewa_volume_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_volume_options, options);
             options.method = m == 0 ? EWA_VOLUME_HYBRID : m == 3 ? EWA_VOLUME_POINTS : EWA_VOLUME_SPLATS;
             if (m == 2) options.prefilter_px = 0;
             drawn[m] = scene_draw(context, voxels, &camera, &options);

@@ -132,8 +132,7 @@ static void settings(void) {
         warp_scene_picture(&target, truth, NULL);
         warp_scene_seen(&target, &source, seen);
         for (size_t k = 0; k < 20; k++) {
-            ewa_warp_options options;
-            ewa_warp_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_warp_options, options);
             options.radius_spacings = radii[k / 5];
             ewa_render_options render;
             ewa_warp_render_options_init(&render, sizeof render);
@@ -213,8 +212,7 @@ static void compare_real(ewa_context *context, const char *what, const view *fro
     }
     ewa_warp *warp = NULL;
     check(ewa_warp_create(context, &warp));
-    ewa_warp_options options;
-    ewa_warp_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_warp_options, options);
     options.depth_noise = depth_noise;
     check(ewa_warp_take(warp, images, count, &options, NULL));
     warped w[2];
