@@ -5,8 +5,8 @@
 #
 #   make demo [FILE=scan.ply]   installs what is missing, builds, renders, says where the picture is
 #   make check                  the same set-up, then the tests, the quick ones also under the address and undefined
-#                               behaviour sanitizers, those of threads also as clang builds them and under the thread
-#                               sanitizer; the last line counts them
+#                               behaviour sanitizers, those of threads also as clang builds them with the thread sanitizer;
+#                               the last line counts them
 #   make check-all              every test of all four builds (hours)
 #   make                        builds everything into build/release
 #   make asan tsan clang fuzz   other builds and their tests
@@ -61,7 +61,7 @@ export CCACHE_BASEDIR ?= $(CURDIR)
 export CCACHE_NOHASHDIR ?= 1
 endif
 
-.PHONY: minimal sets wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs site wheel format install dist deb clean
+.PHONY: minimal sets wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang mutate fuzz arm64 bench sweep gallery papers docs site wheel format install dist deb clean
 
 build: setup
 	@echo "Building build/release"
@@ -84,9 +84,9 @@ demo: program
 
 # A person's session in a window needs a screen and a hand; completion needs its shells, manual pages and desktop files what checks
 # them, the site what makes it.
-check: build asan-build clang-build tsan-build
+check: build asan-build tsan-build
 	@sh tools/setup.sh xvfb xdotool mandoc zsh fish desktop-file-utils shared-mime-info mkdocs mkdocs-material || echo "Without these it is skipped."
-	@sh tools/check.sh build/release:-long build/asan:quick build/clang:parallel build/tsan:parallel
+	@sh tools/check.sh build/release:-long build/asan:quick build/clang-tsan:parallel
 
 check-all: asan tsan clang check
 	@sh tools/check.sh build/release:long
@@ -100,27 +100,22 @@ asan: asan-build
 	$(call quietly,cmake --build build/asan -j $(JOBS) --target slow_tests)
 	@sh tools/check.sh build/asan
 
-# What runs in threads; `make tsan` runs everything.
+# All of the product by clang, whose warnings are errors, and the tests of what runs in threads; `make tsan` runs every test.
 tsan-build: setup
-	@echo "Building build/tsan"
-	$(call quietly,cmake --preset tsan)
-	$(call quietly,cmake --build build/tsan -j $(JOBS) --target parallel_tests)
+	@sh tools/setup.sh clang libclang-rt-14-dev
+	@echo "Building build/clang-tsan"
+	$(call quietly,cmake --preset clang-tsan)
+	$(call quietly,cmake --build build/clang-tsan -j $(JOBS) --target ewa ewa_shared parallel_tests)
 
 tsan: setup
-	@echo "Building build/tsan"
-	$(call quietly,cmake --preset tsan)
-	$(call quietly,cmake --build build/tsan -j $(JOBS) --target all slow_tests)
-	@sh tools/check.sh build/tsan
+	@sh tools/setup.sh clang libclang-rt-14-dev
+	@echo "Building build/clang-tsan"
+	$(call quietly,cmake --preset clang-tsan)
+	$(call quietly,cmake --build build/clang-tsan -j $(JOBS) --target all slow_tests)
+	@sh tools/check.sh build/clang-tsan
 
 interop: program
 	@sh tools/interop.sh $(EWA) "$${EWA_DATA:-../shared/data}"
-
-# All of the product, and the tests of what runs in threads; `make clang` builds and runs every test.
-clang-build:
-	@sh tools/setup.sh clang
-	@echo "Building build/clang"
-	$(call quietly,cmake --preset clang)
-	$(call quietly,cmake --build build/clang -j $(JOBS) --target ewa ewa_shared parallel_tests)
 
 clang:
 	@sh tools/setup.sh clang
