@@ -26,7 +26,7 @@ static ewa_representatives merge(const ewa_representative *fine, uint32_t count)
     ewa_context *context = check_context(2, NULL);
     ewa_representatives merged = {.count = 0};
     const ewa_representatives all = {.items = (ewa_representative *)fine, .count = count};
-    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, &merged), EWA_OK);
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, UINT32_MAX, &merged), EWA_OK);
     ewa_representatives kept = merged; // of no context
     kept.items = malloc((merged.count + (size_t)1) * sizeof *kept.items);
     memcpy(kept.items, merged.items, merged.count * sizeof *kept.items);
@@ -179,7 +179,7 @@ TEST(test_numbers) {
     for (uint32_t k = 0; k < COUNT; k++) of[k] = surfel_of(k / 7, k, k == 6 ? ahead : up, radii[k]);
     const ewa_representatives all = {.items = of, .count = COUNT, .numbers = &numbers[0][0], .number_count = NUMBERS};
     ewa_representatives merged = {.count = 0};
-    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 1u << 1, &merged), EWA_OK);
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 1u << 1, UINT32_MAX, &merged), EWA_OK);
     assert_int_equal(merged.count, 3);
     assert_int_equal(merged.number_count, NUMBERS);
     const double *made = merged.numbers;
@@ -187,11 +187,46 @@ TEST(test_numbers) {
     hold_near(made[1], (10 + 20 + 30 + 4 * 40 + 9 * 60) / 16.0);
     // As much of one as of another: the smaller one.
     of[5].radius_world = 2;
-    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 1u << 1, &merged), EWA_OK);
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 1u << 1, UINT32_MAX, &merged), EWA_OK);
     assert_true(merged.numbers[0] == 5);
     for (uint32_t k = 0; k < 6; k++) numbers[k][1] = (double)NAN;
-    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 3, &merged), EWA_OK);
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 3, UINT32_MAX, &merged), EWA_OK);
     assert_true(isnan(merged.numbers[1]) && merged.numbers[3] == 70);
+    ewa_representatives_free(context, &merged);
+    ewa_context_destroy(&context);
+}
+
+/// Codes that are kept apart are not mixed, so that few of many are still there; sheets of one code are as without.
+TEST(test_codes_apart) {
+    enum { COUNT = 12 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_representative of[COUNT];
+    double codes[COUNT];
+    for (uint32_t k = 0; k < COUNT; k++) {
+        of[k] = surfel_of(0, k, k == 11 ? ahead : up, 1);
+        codes[k] = k == 4 ? 14 : k < 8 ? 2 : 6;
+        of[k].color[0] = (float)codes[k];
+    }
+    const ewa_representatives all = {.items = of, .count = COUNT, .numbers = codes, .number_count = 1};
+    ewa_representatives merged = {.count = 0};
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, UINT32_MAX, &merged), EWA_OK);
+    assert_int_equal(merged.count, 2);
+    assert_true(merged.numbers[0] == 2);
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, 0, &merged), EWA_OK);
+    assert_int_equal(merged.count, 4);
+    static const double made[4] = {2, 14, 6, 6}, members[4] = {7, 1, 3, 1};
+    for (uint32_t k = 0; k < 4; k++) {
+        assert_true(merged.numbers[k] == made[k]);
+        hold_near((double)merged.items[k].color[0], made[k]);
+        hold_near((double)merged.items[k].radius_world, sqrt(members[k]));
+    }
+    // Of more codes than a cell has sheets, the last are mixed with others: nothing is lost.
+    for (uint32_t k = 0; k < COUNT; k++) codes[k] = k;
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, 0, &merged), EWA_OK);
+    double area = 0;
+    for (uint32_t k = 0; k < merged.count; k++) area += (double)merged.items[k].radius_world * (double)merged.items[k].radius_world;
+    assert_true(merged.count < COUNT);
+    hold_near(area, COUNT);
     ewa_representatives_free(context, &merged);
     ewa_context_destroy(&context);
 }
