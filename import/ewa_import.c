@@ -140,6 +140,10 @@ int main(int argument_count, char **arguments) {
     import_input input = {path, (ewa_named_files)strtoul(arguments[4], NULL, 10)};
     struct aiFileIO io = {.OpenProc = open_file, .CloseProc = close_file, .UserData = (char *)&input};
     const struct aiScene *scene = aiImportFileEx(path, 0, &io);
+    // Where it has no reader for the suffix, it tries others, and says what these miss.
+    const char *suffix = strrchr(path, '.');
+    if (!scene && suffix && !aiIsExtensionSupported(suffix))
+        return fail("this build of Assimp does not read such files: exported as glTF or OBJ they are read");
     if (!scene) return fail(aiGetErrorString());
     if (!faces_hold(scene)) return fail("a face has a vertex that is not there");
     scene = aiApplyPostProcessing(scene, aiProcess_Triangulate);

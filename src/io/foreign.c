@@ -7,7 +7,9 @@
 
 #include <stdbool.h>
 
-enum { LOOKED_BYTES = 4096 };
+enum { LOOKED_BYTES = 4096, DICOM_AT = 128 };
+
+#define EXPORT_MESH(format) format ", which is not read: exported as glTF or OBJ it is"
 
 static bool has(const char *text, size_t length, const char *part) {
     const size_t size = strlen(part);
@@ -44,8 +46,16 @@ const char *ewa_foreign_kind(const uint8_t *bytes, size_t size_bytes) {
         {"CDF", "netCDF, which is not read"},
         {"SIMPLE  =", "FITS, which is not read"},
         {"BLENDER", "a project of Blender: exported as glTF, OBJ or PLY it is read"},
-        {"#usda", "USD, which is not read: exported as glTF or OBJ it is"},
-        {"PXR-USDC", "USD, which is not read: exported as glTF or OBJ it is"},
+        {"#usda", EXPORT_MESH("USD")},
+        {"PXR-USDC", EXPORT_MESH("USD")},
+        {"#VRML", EXPORT_MESH("VRML")},
+        {"Kaydara FBX", EXPORT_MESH("FBX")},
+        {"MD5Version", EXPORT_MESH("a model of a game (MD5)")},
+        {"IDP2", EXPORT_MESH("a model of a game (MD2)")},
+        {"IDP3", EXPORT_MESH("a model of a game (MD3)")},
+        {"BB3D", EXPORT_MESH("a model of a game (Blitz3D)")},
+        {"Caligari", EXPORT_MESH("a model of TrueSpace")},
+        {"AC3D", EXPORT_MESH("a model of AC3D")},
     };
     const char *text = size_bytes ? (const char *)bytes : "";
     const size_t looked = size_bytes < LOOKED_BYTES ? size_bytes : LOOKED_BYTES;
@@ -53,9 +63,14 @@ const char *ewa_foreign_kind(const uint8_t *bytes, size_t size_bytes) {
         const size_t length = strlen(starts[i].start);
         if (size_bytes >= length && memcmp(text, starts[i].start, length) == 0) return starts[i].kind;
     }
+    if (looked >= DICOM_AT + 4 && memcmp(text + DICOM_AT, "DICM", 4) == 0)
+        return "DICOM, which is not read: a NIfTI file of its series is, as dcm2niix makes it";
     const ewa_text word = first_word(text, looked);
     if (ewa_text_is_any_case(word, "newmtl")) return "the materials of a mesh (MTL): name the OBJ that uses them";
-    if (word.length && (word.chars[0] == '{' || word.chars[0] == '['))
+    const bool json = word.length && (word.chars[0] == '{' || word.chars[0] == '[');
+    if (json && (has(text, looked, "\"transform_matrix\"") || has(text, looked, "\"intrinsic_matrix\"")))
+        return "cameras (JSON), which have no points: they are given with what they took";
+    if (json)
         return "JSON that is no glTF, no octree (EPT), no set of Gaussians (SOG) and no scene file";
     if (word.length && word.chars[0] == '<') {
         if (has(text, looked, "<VTKFile"))
@@ -63,6 +78,8 @@ const char *ewa_foreign_kind(const uint8_t *bytes, size_t size_bytes) {
                                                       : "a kind of VTK's files that is not read";
         if (has(text, looked, "<html") || has(text, looked, "<HTML") || has(text, looked, "<!DOCTYPE html"))
             return "a page of HTML, as servers send where the file is not";
+        if (has(text, looked, "<COLLADA")) return EXPORT_MESH("COLLADA");
+        if (has(text, looked, "<X3D")) return EXPORT_MESH("X3D");
     }
     return NULL;
 }

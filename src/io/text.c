@@ -25,7 +25,7 @@ const char *ewa_quote(ewa_text text, char quote[EWA_QUOTE_BYTES]) {
     size_t at = 0;
     quote[at++] = '\'';
     for (size_t i = 0; i < text.length && i < room; i++)
-        quote[at++] = (char)(text.chars[i] >= ' ' && text.chars[i] <= '~' ? text.chars[i] : '?');
+        quote[at++] = (char)(text.chars[i] == '\t' ? ' ' : text.chars[i] >= ' ' && text.chars[i] <= '~' ? text.chars[i] : '?');
     if (text.length > room) {
         memcpy(quote + at, "...", 3);
         at += 3;

@@ -402,6 +402,10 @@ TEST(test_probe) {
         {"<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", "a list of files, which are not read without its folder"},
         {"<VTKFile type=\"ImageData\">", "its name has to end in .vti"},
         {"ISO-10303-21;", "CAD (STEP)"},
+        {"#VRML V2.0 utf8\n", "VRML, which is not read: exported as glTF or OBJ it is"},
+        {"<?xml version=\"1.0\"?>\n<COLLADA version=\"1.4.1\">", "COLLADA, which is not read"},
+        {"IDP2xxxx", "a model of a game (MD2)"},
+        {"{\"camera_angle_x\": 0.7, \"frames\": [{\"transform_matrix\": []}]}", "cameras (JSON), which have no points"},
         {"\223NUMPY\1", "an array of NumPy: in Python"},
     };
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++) {
@@ -409,6 +413,8 @@ TEST(test_probe) {
             mesh_refuse(context, &messages, names[k], foreign[i].text, strlen(foreign[i].text), EWA_ERROR_UNSUPPORTED,
                         foreign[i].said);
     }
+    static const char dicom[200] = {[128] = 'D', 'I', 'C', 'M'};
+    mesh_refuse(context, &messages, "a.dcm", dicom, sizeof dicom, EWA_ERROR_UNSUPPORTED, "DICOM, which is not read: a NIfTI file");
     ewa_model model;
     assert_int_equal(ewa_model_load_memory(context, "", 0, "a.obj", NULL, EWA_MODEL_MESH, NULL, &model),
                      EWA_ERROR_FORMAT);
