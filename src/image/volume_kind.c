@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What kind of numbers a volume holds, from how neighbours along its rows differ.
+// What kind of numbers a volume holds, from how neighbours differ.
 //
 // Based on: J. von Neumann, "Distribution of the Ratio of the Mean Square Successive Difference to the Variance",
 // 1941 (the ratio is 2 for numbers that have nothing to do with each other).
@@ -30,6 +30,9 @@ static const double WHITE = 0.8;
 /// Sum of squared second differences over that of the first ones, below which a field is resolved by its grid:
 /// sampled functions have 0.01 to 0.25, the borders of a scan 0.6, its noise 3.
 static const double RESOLVED = 0.35;
+
+/// The same along the other two axes: slices of a scan that was resampled smoothly in its plane have more.
+static const double RESOLVED_ACROSS = 0.6;
 
 /// The codes that occur.
 typedef struct code_set {
@@ -136,6 +139,32 @@ static row_facts measure(const ewa_volume *volume, const ewa_volume_surfaces *su
     return facts;
 }
 
+/// Sum of squared second differences over that of the first ones along y or z, of places within the range of `surfaces`.
+static double bends_across(const ewa_volume *volume, const ewa_volume_surfaces *surfaces, int axis) {
+    enum { MAX_VOXELS = 1 << 18 };
+    const uint32_t *dims = volume->dims;
+    const uint64_t rows = (uint64_t)dims[1] * dims[2], step = 1 + rows * dims[0] / MAX_VOXELS, stride = axis == 1 ? 1 : dims[1];
+    const double low = surfaces->low, width = surfaces->high - low;
+    double squares = 0, bends = 0;
+    float numbers[3][ROW];
+    for (uint64_t row = 0; row + 2 * stride < rows; row += step) {
+        if (axis == 1 && row % dims[1] + 2 >= dims[1]) continue;
+        for (uint32_t begin = 0; begin < dims[0]; begin += ROW) {
+            const uint32_t left = dims[0] - begin, count = left < ROW ? left : ROW;
+            for (uint64_t r = 0; r < 3; r++) ewa_volume_read(volume, (row + r * stride) * dims[0] + begin, count, numbers[r]);
+            for (uint32_t i = 0; i < count; i++) {
+                if (!isfinite(numbers[0][i]) || !isfinite(numbers[1][i]) || !isfinite(numbers[2][i])) continue;
+                double place[3];
+                for (int r = 0; r < 3; r++) place[r] = fmin(fmax(((double)numbers[r][i] - low) / width, 0), 1);
+                const double first = place[1] - place[0], bend = place[2] - place[1] - first;
+                squares += first * first;
+                bends += bend * bend;
+            }
+        }
+    }
+    return squares > 0 ? bends / squares : 0;
+}
+
 /// Lists the codes; 0 surrounds, or the smallest.
 static void list_codes(const code_set *set, ewa_volume_labels *labels) {
     for (uint32_t at = 0; at < CODE_RANGE; at++) {
@@ -171,5 +200,7 @@ ewa_volume_kind ewa_volume_find_kind(const ewa_volume *volume, const ewa_volume_
     if (dims[0] < MIN_SIDE || dims[1] < MIN_SIDE || dims[2] < MIN_SIDE || !(rows.squares > 0))
         return EWA_KIND_SCAN;
     if (rows.squares >= 2 * WHITE * variance * rows.pairs) return EWA_KIND_NOISE;
-    return rows.bends <= RESOLVED * rows.squares ? EWA_KIND_FIELD : EWA_KIND_SCAN;
+    const bool resolved = rows.bends <= RESOLVED * rows.squares && bends_across(volume, surfaces, 1) <= RESOLVED_ACROSS &&
+                          bends_across(volume, surfaces, 2) <= RESOLVED_ACROSS;
+    return resolved ? EWA_KIND_FIELD : EWA_KIND_SCAN;
 }

@@ -160,6 +160,21 @@ TEST_ON(test_field, 1) {
     ewa_volume_free(&volume);
 }
 
+/// What is smooth within its slices, and not across them, is a scan that was resampled.
+TEST_ON(test_smooth_slices, 1) {
+    ewa_volume volume = make_volume(context, EWA_F32);
+    for (int axis = 1; axis < 3; axis++) {
+        for (int i = 0; i < ALL; i++) {
+            double p[3];
+            place_of(i, p);
+            const int slice = axis == 1 ? i / SIDE % SIDE : i / LAYER;
+            ((float *)volume.voxels)[i] = (float)(sin(5 * p[0]) + sin(6 * p[3 - axis]) + 0.4 * (slice * 7 % 5));
+        }
+        assert_int_equal(kind_of(&volume), EWA_KIND_SCAN);
+    }
+    ewa_volume_free(&volume);
+}
+
 /// Fields that reach the faces of the box have shells, too.
 TEST_ON(test_full_field, 1) {
     ewa_volume volume = make_volume(context, EWA_F32);
