@@ -127,7 +127,7 @@ static const cli_option furniture_table[] = {
     {"outlines", OPTION_INTEGER, AT(outlines), "N", "[0, 1000000]",
      .help = "draw the outlines of N of the surfels that are seen, as their kernels end; 0: none"},
     {"color-bar", OPTION_FLAG, AT(furniture.color_bar),
-     .help = "show on the right what colours of numbers mean: a scale, or the classes there are"},
+     .help = "show on the right, or at the bottom of a tall picture, what colours of numbers mean: a scale, or the classes there are"},
 };
 
 static void set_defaults(void *data) {

@@ -16,6 +16,8 @@ static const double ROW_PT = 18, SQUARE_PT = 12, LABEL_ROW_PT = 20;
 static const double BAR_PART = 0.6, TEXT_PART = 0.4;
 /// Points from a tick to the next one, at least.
 static const double TICK_STEP_PT = 30;
+/// Points between the texts of ticks that stand side by side, and from such a tick to the next one, at least.
+static const double TEXT_GAP_PT = 10, ACROSS_STEP_PT = 44;
 
 /// Fills a rectangle with a rim of a pixel or more around it, in the colour of the text.
 static void draw_framed(const ewa_layout *layout, const ewa_inks *inks, const ewa_box *box) {
@@ -61,11 +63,10 @@ static void write_tick(const ewa_layout *layout, const bar_scale *scale, int64_t
     ewa_decimal_write(number, text);
 }
 
-/// Finds the ticks of a bar so many points high; false when there is none.
-static bool find_scale(const ewa_layout *layout, double height_pt, bar_scale *scale) {
+/// Finds the ticks of a bar, so many at most; false when there is none.
+static bool find_scale(const ewa_layout *layout, uint32_t maximum, bar_scale *scale) {
     const double *range = layout->options->range;
     *scale = (bar_scale){.single = range[0] == range[1]};
-    const uint32_t maximum = (uint32_t)fmax(1, floor(height_pt / TICK_STEP_PT));
     if (!scale->single &&
         !ewa_ticks_find(fmin(range[0], range[1]), fmax(range[0], range[1]), maximum, &scale->ticks))
         return false;
@@ -77,20 +78,24 @@ static bool find_scale(const ewa_layout *layout, double height_pt, bar_scale *sc
     return true;
 }
 
+/// Where on the bar a tick is, from its first colour to its last.
+static double share_of(const ewa_layout *layout, const bar_scale *scale, int64_t index) {
+    const double *range = layout->options->range, extent = range[1] - range[0];
+    if (scale->single) return 0.5;
+    const double value = ewa_decimal_value(ewa_ticks_at(&scale->ticks, index));
+    return isfinite(extent) ? (value - range[0]) / extent : (value / 2 - range[0] / 2) / (range[1] / 2 - range[0] / 2);
+}
+
 /// Draws the ticks right of a bar.
 static void draw_ticks(const ewa_layout *layout, const ewa_inks *inks, const ewa_box *bar,
                        const bar_scale *scale) {
-    const double *range = layout->options->range, point = layout->point_px;
+    const double point = layout->point_px;
     const ewa_text_style style = ewa_layout_style(layout, inks, EWA_TEXT_PT, EWA_TEXT_LEFT_MIDDLE);
-    const double thick = fmax(1, floor(point)), extent = range[1] - range[0];
+    const double thick = fmax(1, floor(point));
     for (int64_t k = scale->ticks.first; k <= scale->ticks.last; k++) {
         char text[EWA_DECIMAL_BYTES];
         write_tick(layout, scale, k, text);
-        const double value = ewa_decimal_value(ewa_ticks_at(&scale->ticks, k));
-        const double share = scale->single      ? 0.5
-                             : isfinite(extent) ? (value - range[0]) / extent
-                                                : (value / 2 - range[0] / 2) / (range[1] / 2 - range[0] / 2);
-        const double y = bar->bottom - share * (bar->bottom - bar->top);
+        const double y = bar->bottom - share_of(layout, scale, k) * (bar->bottom - bar->top);
         const double top = fmin(fmax(floor(y - thick / 2 + 0.5), bar->top - thick), bar->bottom);
         ewa_draw_rectangle(layout->canvas, bar->right, top, bar->right + floor(TICK_PT * point), top + thick,
                            inks->ink);
@@ -99,7 +104,58 @@ static void draw_ticks(const ewa_layout *layout, const ewa_inks *inks, const ewa
     }
 }
 
+/// Fills a bar with its colours, from the left to the right, or from its lower end to the upper one.
+static void fill_bar(const ewa_layout *layout, const ewa_box *bar, bool across) {
+    const double *range = layout->options->range, length = across ? bar->right - bar->left : bar->bottom - bar->top;
+    for (int j = 0; j < (int)length; j++) {
+        uint8_t rgba[4] = {0, 0, 0, 255};
+        ewa_colormap_color(layout->options->colormap, range[0] == range[1] ? 0.5 : (j + 0.5) / length, rgba);
+        if (across)
+            ewa_draw_rectangle(layout->canvas, bar->left + j, bar->top, bar->left + j + 1, bar->bottom, rgba);
+        else
+            ewa_draw_rectangle(layout->canvas, bar->left, bar->bottom - j - 1, bar->right, bar->bottom - j, rgba);
+    }
+}
+
+/// Draws a bar that lies at the bottom, its ticks below it.
+static void draw_across(const ewa_layout *layout) {
+    const double point = layout->point_px, text_px = EWA_TEXT_PT * point, thick = fmax(1, floor(point));
+    const ewa_box *room = &layout->room;
+    const double label_px = layout->options->color_label || layout->options->color_unit ? LABEL_ROW_PT * point : 0;
+    // Half a text stands beside each end, where there are ticks.
+    bar_scale scale;
+    double width = floor(fmin(room->right - room->left, BAR_MAX_PT * point));
+    uint32_t maximum = (uint32_t)fmax(1, floor(width / (ACROSS_STEP_PT * point)));
+    bool fits = find_scale(layout, maximum, &scale);
+    while (fits && maximum > 1 && (scale.widest_px + TEXT_GAP_PT * point) * maximum > width) fits = find_scale(layout, --maximum, &scale);
+    if (!fits) return;
+    width = floor(fmin(width, room->right - room->left - scale.widest_px));
+    const double left = floor((room->left + room->right - width) / 2), below = (TICK_PT + BESIDE_PT / 2) * point + text_px;
+    const double bottom = floor(room->bottom - below), top = bottom - floor(BAR_WIDTH_PT * point);
+    const ewa_box bar = {left, top, left + width, bottom};
+    if (width < BAR_MIN_PT * point || top - label_px < layout->canvas->height_px / 2.0) return;
+    const ewa_inks inks = ewa_layout_inks(layout, &(ewa_box){left, top - label_px, bar.right, room->bottom});
+    draw_framed(layout, &inks, &bar);
+    fill_bar(layout, &bar, true);
+    const ewa_text_style style = ewa_layout_style(layout, &inks, EWA_TEXT_PT, EWA_TEXT_CENTER_TOP);
+    for (int64_t k = scale.ticks.first; k <= scale.ticks.last; k++) {
+        char text[EWA_DECIMAL_BYTES];
+        write_tick(layout, &scale, k, text);
+        const double x = left + share_of(layout, &scale, k) * width;
+        const double from = fmin(fmax(floor(x - thick / 2 + 0.5), left - thick), bar.right);
+        ewa_draw_rectangle(layout->canvas, from, bottom, from + thick, bottom + floor(TICK_PT * point), inks.ink);
+        ewa_draw_text(layout->canvas, text, from + thick / 2, bottom + (TICK_PT + BESIDE_PT / 2) * point, &style);
+    }
+    char label[EWA_LAYOUT_TEXT_BYTES];
+    write_label(layout, text_px, width, label);
+    draw_label(layout, &inks, label, left, top);
+}
+
 void ewa_color_bar_draw(const ewa_layout *layout) {
+    if (ewa_layout_is_tall(layout->canvas)) {
+        draw_across(layout);
+        return;
+    }
     const double point = layout->point_px, text_px = EWA_TEXT_PT * point;
     const ewa_box *room = &layout->room;
     const double label_px =
@@ -108,7 +164,7 @@ void ewa_color_bar_draw(const ewa_layout *layout) {
     const double tall = room->bottom - room->top - label_px - text_px;
     const double height = floor(fmin(fmin(tall, BAR_PART * layout->canvas->height_px), BAR_MAX_PT * point));
     bar_scale scale;
-    if (height < BAR_MIN_PT * point || !find_scale(layout, height / point, &scale)) return;
+    if (height < BAR_MIN_PT * point || !find_scale(layout, (uint32_t)floor(height / point / TICK_STEP_PT), &scale)) return;
     const double beside = (TICK_PT + BESIDE_PT) * point + scale.widest_px;
     const double right = floor(room->right - beside), left = right - floor(BAR_WIDTH_PT * point);
     const double top = floor(room->top + label_px + text_px / 2 + (tall - height) / 2);
@@ -117,13 +173,7 @@ void ewa_color_bar_draw(const ewa_layout *layout) {
     const ewa_inks inks =
         ewa_layout_inks(layout, &(ewa_box){left, top - label_px, room->right, top + height});
     draw_framed(layout, &inks, &bar);
-    for (int j = 0; j < (int)height; j++) {
-        uint8_t rgba[4] = {0, 0, 0, 255};
-        const double place =
-            layout->options->range[0] == layout->options->range[1] ? 0.5 : (j + 0.5) / height;
-        ewa_colormap_color(layout->options->colormap, place, rgba);
-        ewa_draw_rectangle(layout->canvas, left, bar.bottom - j - 1, right, bar.bottom - j, rgba);
-    }
+    fill_bar(layout, &bar, false);
     draw_ticks(layout, &inks, &bar, &scale);
     char label[EWA_LAYOUT_TEXT_BYTES];
     write_label(layout, text_px, TEXT_PART * layout->canvas->width_px, label);
@@ -170,7 +220,8 @@ void ewa_legend_draw(const ewa_layout *layout) {
     if (widest_px == 0) return;
     const double square_px = floor(SQUARE_PT * point);
     const double left = floor(room->right - widest_px - BESIDE_PT * point - square_px);
-    const double top = floor(room->top + label_px + (tall - row_count * row_px) / 2);
+    const double over = tall - row_count * row_px; // room that is left
+    const double top = floor(room->top + label_px + (ewa_layout_is_tall(layout->canvas) ? over : over / 2));
     const ewa_inks inks =
         ewa_layout_inks(layout, &(ewa_box){left, top - label_px, room->right, top + row_count * row_px});
     const ewa_text_style style = ewa_layout_style(layout, &inks, EWA_TEXT_PT, EWA_TEXT_LEFT_MIDDLE);

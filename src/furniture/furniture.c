@@ -30,7 +30,7 @@ static const ewa_option option_rows[] = {
     {"axes", EWA_OPTION_BOOL, AT(axes),
      .help = "show how the world's axes x, y, z lie, in the lower left corner"},
     {"scale_bar", EWA_OPTION_BOOL, AT(scale_bar), .help = "show a length, in the lower right corner"},
-    {"color_bar", EWA_OPTION_BOOL, AT(color_bar), .help = "show what the colours mean, on the right"},
+    {"color_bar", EWA_OPTION_BOOL, AT(color_bar), .help = "show what the colours mean, on the right; at the bottom of a picture that is a quarter higher than wide"},
     {"scale_depth_world", EWA_OPTION_F64, AT(scale_depth_world), 0, 1e30, .unit = "world",
      .help = "distance along the view at which the scale bar of a perspective camera holds; 0: no such bar"},
     {"colormap", EWA_OPTION_CHOICE, AT(colormap),
@@ -102,7 +102,7 @@ static void letter_way(const axis axes[3], int which, double way[2]) {
 }
 
 /// Draws the cross; returns how far right it reaches, 0 without it.
-static double draw_axes(const ewa_layout *layout, const ewa_camera *camera) {
+static double draw_axes(ewa_layout *layout, const ewa_camera *camera) {
     static const uint8_t on_light[3][3] = {{215, 45, 40}, {30, 140, 45}, {50, 90, 230}};
     static const uint8_t on_dark[3][3] = {{255, 95, 85}, {95, 215, 95}, {120, 165, 255}};
     const double point = layout->point_px, margin = EWA_MARGIN_PT * point;
@@ -132,6 +132,7 @@ static double draw_axes(const ewa_layout *layout, const ewa_camera *camera) {
         ewa_draw_text(layout->canvas, letter, x0 + (ARM_PT * at->x + LETTER_OFF_PT * way[0]) * point,
                       y0 + (ARM_PT * at->y + LETTER_OFF_PT * way[1] - LETTER_PT / 10) * point, &style);
     }
+    if (ewa_layout_is_tall(layout->canvas)) layout->room.bottom = fmin(layout->room.bottom, y0 - reach - margin / 2);
     return x0 + reach;
 }
 
@@ -206,7 +207,7 @@ static void draw_scale_bar(ewa_layout *layout, const ewa_camera *camera, double 
                            inks.ink);
     const ewa_text_style style = ewa_layout_style(layout, &inks, EWA_TEXT_PT, EWA_TEXT_CENTER);
     ewa_draw_text(layout->canvas, text, middle, bottom - end_px - SCALE_OFF_PT * point, &style);
-    layout->room.bottom = top - margin / 2;
+    layout->room.bottom = fmin(layout->room.bottom, top - margin / 2);
 }
 
 /// Takes the caller's options; what is wrong with several members together is checked here.

@@ -14,6 +14,8 @@
 static const double MIDDLE_LUMINANCE = 0.18;
 /// Points of a picture's smaller side, and pixels per point at least, where no one says how large a point is.
 static const double SIDE_PT = 720, MIN_POINT_PX = 0.84;
+/// Pictures that are so many times as high as wide are tall.
+static const double TALL = 1.25;
 /// Width of the rim of letters, as part of their height.
 static const double RIM_PART = 0.13;
 
@@ -27,6 +29,8 @@ ewa_status ewa_layout_check(ewa_context *context, const ewa_canvas *canvas, cons
     return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: the canvas has %u x %u pixels, allowed are 1 to %d", caller, width, height,
                     MAX_SIDE_PX);
 }
+
+bool ewa_layout_is_tall(const ewa_canvas *canvas) { return canvas->height_px > TALL * canvas->width_px; }
 
 double ewa_layout_point_px(const ewa_canvas *canvas, double pixel_scale) {
     const double smaller = canvas->width_px < canvas->height_px ? canvas->width_px : canvas->height_px;

@@ -36,6 +36,10 @@ ewa_status ewa_layout_check(ewa_context *context, const ewa_canvas *canvas, cons
 /// Pixels of a point on a canvas: `pixel_scale`, or, where it is 0, as suits its size.
 double ewa_layout_point_px(const ewa_canvas *canvas, double pixel_scale);
 
+/// Whether a picture is so much higher than wide, as on a phone, that what tells colours stands at the bottom, where such pictures have room, in place
+/// of the right, where it would hide what is shown.
+bool ewa_layout_is_tall(const ewa_canvas *canvas);
+
 /// Colours that can be read on what the picture has in a box.
 ewa_inks ewa_layout_inks(const ewa_layout *layout, const ewa_box *box);
 
@@ -50,7 +54,7 @@ enum { EWA_LAYOUT_TEXT_BYTES = 512 };
 bool ewa_layout_shorten(const char *text, double height_px, double max_px,
                         char fitting[EWA_LAYOUT_TEXT_BYTES]);
 
-/// Draws the colour bar, or the legend of categories, at the right of the room.
+/// Draws the colour bar, or the legend of categories, at the right of the room, or at the bottom of that of a tall picture.
 void ewa_color_bar_draw(const ewa_layout *layout);
 void ewa_legend_draw(const ewa_layout *layout);
 

@@ -489,6 +489,41 @@ TEST(test_title_and_legend_places) {
     free(canvas.rgba8);
 }
 
+/// In a picture as of a phone the colour bar lies below the middle, from the first colour at the left to the last at the right, and beside
+/// nothing else; in one that is no quarter higher than wide it stands.
+TEST(test_color_bar_lies) {
+    static const uint32_t heights[] = {844, 487};
+    for (int k = 0; k < 2; k++)
+        for (int all = 0; all < 2; all++) {
+            ewa_canvas canvas = painting_make(390, heights[k], white);
+            const ewa_camera camera = map_camera(&canvas, 10);
+            ewa_furniture_options options = no_furniture();
+            options.color_bar = true;
+            options.axes = options.scale_bar = all;
+            options.pixel_scale = 1;
+            options.range[0] = 1e6, options.range[1] = 1000250.5;
+            draw(&canvas, &camera, &options);
+            uint8_t low[3], high[3];
+            ewa_colormap_color(EWA_COLORMAP_VIRIDIS, 0.001, low);
+            ewa_colormap_color(EWA_COLORMAP_VIRIDIS, 0.999, high);
+            uint32_t low_at[2] = {0}, high_at[2] = {0}, lowest = 0;
+            for (uint32_t y = 0; y < heights[k]; y++)
+                for (uint32_t x = 0; x < 390; x++) {
+                    const uint8_t *pixel = painting_at(&canvas, x, y);
+                    if (memcmp(pixel, low, 3) == 0) low_at[0] = x, low_at[1] = y;
+                    if (memcmp(pixel, high, 3) == 0) high_at[0] = x, high_at[1] = y;
+                    if (memcmp(pixel, white, 3) != 0) lowest = y;
+                }
+            const bool lies = heights[k] == 844;
+            assert_true(low_at[0] > 0 && high_at[0] > 0);
+            assert_int_equal(high_at[0] - low_at[0] > 250, lies);
+            assert_int_equal(high_at[1] == low_at[1], lies);
+            // Above what stands in the corners, 103 points high; else at the edge.
+            if (lies) assert_true(low_at[1] > 600 && low_at[1] < (all ? 740u : 830u) && lowest < 844);
+            free(canvas.rgba8);
+        }
+}
+
 /// The scale bar is there where it and its text stay a margin away from the axes.
 TEST(test_scale_bar_beside_axes) {
     int drawn_count = 0;
