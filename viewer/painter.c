@@ -101,6 +101,7 @@ static ewa_status draw_now(painter *p, paint_result *result) {
     result->splat_count = stats.render.splat_count;
     result->drawn_s = stats.render.total_s;
     result->arrived_count = p->now.arrived_count;
+    result->lacks_nodes = stats.missing_count > 0;
     result->to_refine = stats.missing_count && stats.loaded_count;
     return status;
 }

@@ -43,6 +43,7 @@ typedef struct paint_result {
     double drawn_s;
     uint64_t splat_count;
     uint64_t arrived_count; ///< of the scene: later nodes may be missing
+    bool lacks_nodes;       ///< nodes of octrees that it needs were not there; false: those that come later change nothing
     bool
         to_refine; ///< nodes of octrees are missing, and some were read: the same scene gets better when drawn again
 } paint_result;

@@ -24,8 +24,10 @@ static const double LARGE_PX = 2e6;
 /// Moving pictures become plainer after so many that take so many times their budget, and finer after so many
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
-/// Of volumes, whose pictures choose no level by themselves, one that takes so many times its budget is enough.
-static const double FAR_TOO_SLOW = 4;
+/// Octrees get coarser by small steps, which few can tell: what else a picture takes has room in the budget, too.
+static const double TOO_SLOW_BY_STEPS = 0.8;
+/// Of volumes and octrees, whose pictures choose no level by themselves, one that takes so many times its budget is enough.
+static const double FAR_TOO_SLOW = 4, FAR_TOO_SLOW_BY_STEPS = 1.5;
 enum { SLOW_PICTURES = 2, FAST_PICTURES = 8 };
 /// How plain they become: how many times as coarse octrees and Gaussians are as when nothing moves, at which level volumes are drawn, and by how much the sides
 /// of the picture are divided.
@@ -33,9 +35,13 @@ enum { SLOW_PICTURES = 2, FAST_PICTURES = 8 };
 static const struct {
     double coarser;
     uint32_t voxel_level, divisor;
-} plainness[] = {{2, 1, 1}, {4, 2, 1}, {2, 1, 2}, {4, 2, 2}};
+} plainness[] = {{2, 1, 1}, {2.4, 1, 1}, {2.8, 1, 1}, {4, 2, 1}, {2, 1, 2}, {2.8, 1, 2}, {4, 2, 2}};
 /// What drawing a volume takes beside drawing it at the level before, which has eight times the voxels and as many pixels.
 static const double LEVEL_SHARE = 0.25;
+/// The first steps, which octrees take to have more frames: half the size with surfels of twice its pixels shows what the whole one with four does.
+enum { SMALL_STEPS = 4, FIRST_STEP = 3 };
+/// What pixels take beside surfels that are twice as coarse as when nothing moves, as a share of both.
+static const double PIXELS_SHARE = 0.45;
 enum { PLAINEST = sizeof plainness / sizeof plainness[0] - 1 };
 /// Surfaces that show through each other at silhouettes of them, at most: the third and all behind it are seen in few pixels.
 enum { MOVING_EDGE_LAYERS = 2 };
@@ -278,9 +284,9 @@ static uint32_t voxel_level_of(const viewer *v, uint32_t plain) {
 /// What pictures of one plainness take beside those of another one, about.
 static double work_of(const viewer *v, uint32_t plain) {
     const double divisor = v->settings.reduce ? fmax(plainness[plain].divisor, min_divisor(v)) : 1;
-    const double coarser = v->octrees || v->gaussian_levels ? plainness[plain].coarser : 1;
+    const double share = v->octrees || v->gaussian_levels ? PIXELS_SHARE : 1, finer = plainness[0].coarser / plainness[plain].coarser;
     const double levels = v->volumes ? pow(LEVEL_SHARE, voxel_level_of(v, plain)) : 1;
-    return levels / (divisor * divisor * coarser * coarser);
+    return levels * (share + (1 - share) * finer * finer) / (divisor * divisor);
 }
 
 /// Makes moving pictures plainer where they take too long, and finer again, by steps that change something.
@@ -289,12 +295,16 @@ static void adapt(viewer *v, const paint_result *newest) {
     v->adapted = newest->ticket;
     const double budget_s = 1e-3 * v->settings.budget_ms, work = work_of(v, v->plain);
     uint32_t plainer = v->plain, finer = v->plain;
-    const bool far_too_slow = v->volumes && newest->drawn_s > FAR_TOO_SLOW * budget_s;
-    while (plainer < PLAINEST && (work_of(v, plainer) >= work ||
-                                  (far_too_slow && newest->drawn_s * work_of(v, plainer) > TOO_SLOW * budget_s * work)))
+    const bool steps = v->octrees && !v->volumes && v->plain < SMALL_STEPS;
+    const double too_slow = steps ? TOO_SLOW_BY_STEPS : TOO_SLOW;
+    const uint32_t plainest = steps ? SMALL_STEPS : PLAINEST;
+    const bool far_too_slow = (v->volumes && newest->drawn_s > FAR_TOO_SLOW * budget_s) ||
+                              (steps && newest->drawn_s > FAR_TOO_SLOW_BY_STEPS * budget_s);
+    while (plainer < plainest && (work_of(v, plainer) >= work ||
+                                  (far_too_slow && newest->drawn_s * work_of(v, plainer) > too_slow * budget_s * work)))
         plainer++;
     while (finer > 0 && work_of(v, finer) <= work) finer--;
-    const bool slow = newest->drawn_s > TOO_SLOW * budget_s;
+    const bool slow = newest->drawn_s > too_slow * budget_s;
     const bool fast = newest->drawn_s * work_of(v, finer) / work < MUCH_FASTER * budget_s;
     v->slow_count = slow ? v->slow_count + 1 : 0;
     v->fast_count = fast ? v->fast_count + 1 : 0;
@@ -359,7 +369,7 @@ static bool is_moving(const viewer *v) {
 
 /// Whether a picture shows all nodes of octrees that will come.
 static bool is_complete(const viewer *v, const paint_result *newest) {
-    if (!v->node_reader || !v->octrees) return true;
+    if (!v->node_reader || !v->octrees || !newest->lacks_nodes) return true;
     node_reader_state state;
     node_reader_tell(v->node_reader, &state);
     return !state.busy && newest->arrived_count == state.arrived_count;
@@ -384,6 +394,7 @@ static bool is_to_be_refined(viewer *v, const paint_result *newest) {
         v->refined = newest->drawn_count;
         return true;
     }
+    if (!newest->lacks_nodes) return false;
     node_reader_state state;
     node_reader_tell(v->node_reader, &state);
     if (newest->arrived_count == state.arrived_count) return false;
@@ -403,6 +414,8 @@ static void schedule(viewer *v, const paint_result *newest) {
     if (awaits_nodes(v)) return;
     if (v->posted != v->revision) {
         painter_hurry(v->painter);
+        // The first time from the coarse side: a hand that begins to turn is not kept waiting.
+        if (v->octrees && !v->adapted && v->plain < FIRST_STEP) v->plain = FIRST_STEP;
         if (!painter_is_busy(v->painter)) post(v, false);
         return;
     }
