@@ -157,7 +157,7 @@ class FurnitureOptions(TypedDict, total=False):
     axes: bool | None
     #: show a length, in the lower right corner; on|off, default off
     scale_bar: bool | None
-    #: show what the colours mean, on the right; on|off, default off
+    #: show what the colours mean, on the right; at the bottom of a picture that is a quarter higher than wide; on|off, default off
     color_bar: bool | None
     #: distance along the view at which the scale bar of a perspective camera holds; 0: no such bar; [0, 1e30], world, default 0
     scale_depth_world: float | None
