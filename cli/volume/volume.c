@@ -316,8 +316,8 @@ const cli_command volume_command = {
         "info say "
         "which values these are.\n"
         "\n"
-        "The volume is framed whole, with z up. Where the file says how a patient lies it is seen from "
-        "the front, from -y: into the face. A slice or a picture is seen upright, anything else from a "
+        "The volume is framed whole. Where the file says how a patient lies, z is up and it is seen from "
+        "the front, from -y: into the face; else what is up is measured by where matter ends (--verbose says it). A slice or a picture is seen upright, anything else from a "
         "corner. --azimuth, --elevation and --up start from the front. Raw numbers need --dims, or a "
         "name such as head_256x256x128_uint8.raw.gz.",
     .examples = "ewa volume head.nrrd -o head.png\n"
