@@ -282,9 +282,10 @@ TEST(test_wording) {
     for (size_t i = 0; i < 2; i++)
         run_fails(1, "a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it", "ewa render %s -o a.png", folders[i]);
     scratch_text("cells.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n"
-                              "CELL_DATA 1\nSCALARS id int\nLOOKUP_TABLE default\n7\n");
+                              "CELL_DATA 1\nSCALARS id int\nLOOKUP_TABLE default\n7\nFIELD f 5\na 1 1 int\n1\nb 1 1 int\n1\nc 1 1 int\n1\nd 1 1 int\n1\n"
+                              "e 1 1 int\n1\n");
     assert_int_equal(run("ewa convert cells.vtk -o cells.xyz"), 0);
-    assert_non_null(strstr(last_run.err, "array 'id' is of cells: faces have it as they are drawn, points do not"));
+    assert_non_null(strstr(last_run.err, "numbers of cells (id, a, b, c, ...): faces have them as they are drawn, points do not"));
     run_done("ewa render cells.vtk -o a.png --size 16x16 --color-by id");
     scratch_text("title.xyz", "Yard scan\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
     run_fails(1, "title.xyz: line 1: 'Yard scan' is neither", "ewa render title.xyz -o a.png");

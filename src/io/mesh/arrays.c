@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_ARRAYS = 256, MAX_COMPONENTS = 4 };
+enum { MAX_ARRAYS = 256, MAX_COMPONENTS = 4, SAID = 4 };
 
 /// Attributes that have a meaning, which a file of meshes does not mean by such a name.
 static bool is_taken(const char *name) {
@@ -120,19 +120,30 @@ ewa_status ewa_mesh_add_numbers(ewa_mesh_build *build, ewa_mesh_array *array, co
     return status;
 }
 
+/// Says which arrays points alone do not have, the first few by name.
+static void say_of_cells(const ewa_mesh_build *build) {
+    const ewa_mesh_array *arrays = build->arrays.items;
+    char names[SAID * (EWA_NAME_BYTES + 2) + 8] = "";
+    size_t at = 0, count = 0;
+    for (uint64_t a = 0; a < build->arrays.count; a++) {
+        if (!arrays[a].of_cells || count++ > SAID) continue;
+        at += (size_t)snprintf(names + at, sizeof names - at, "%s%s", at ? ", " : "", count > SAID ? "..." : arrays[a].name);
+    }
+    if (count)
+        ewa_report(build->context, EWA_SEVERITY_NOTE, "%s: numbers of cells (%s): faces have them as they are drawn, points do not",
+                   build->source->name, names);
+}
+
 ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, const uint32_t *cells, size_t stride,
                                 ewa_cloud *cloud) {
     const ewa_mesh_array *arrays = build->arrays.items;
     const uint64_t count = ewa_cloud_point_count(cloud);
+    if (!cells) say_of_cells(build);
     for (uint64_t a = 0; a < build->arrays.count; a++) {
         const ewa_mesh_array *array = &arrays[a];
         const uint32_t bytes = array->values.item_bytes, *numbers = array->of_cells ? cells : places;
         void *data;
-        if (array->of_cells && !cells) {
-            ewa_report(build->context, EWA_SEVERITY_NOTE, "%s: array '%s' is of cells: faces have it as they are drawn, points do not",
-                       build->source->name, array->name);
-            continue;
-        }
+        if (array->of_cells && !cells) continue;
         EWA_TRY(ewa_memory_check(build->context, count * bytes, "%s: array %s", build->source->name, array->name));
         EWA_TRY(ewa_cloud_add(cloud, array->name, array->type, array->component_count, &data));
         uint8_t *to = data;
