@@ -13,7 +13,7 @@ import { Bytes, Files } from "../../page/files.js";
 import { Ranges } from "../../page/ranges.js";
 import { ISOLATED, serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, SCREEN_HEIGHT, show, shown, view, WIDTH, write_ept, write_kinds,
+  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, SCREEN_HEIGHT, show, shown, TITLE, view, WIDTH, write_ept, write_kinds,
 } from "./pages.mjs";
 
 // ---- What is shown
@@ -221,7 +221,7 @@ await check("the hand while a server is slow, and a module that ends", async () 
 
 await check("hand and keys", async () => {
   const url = pathToFileURL(join(scratch, "torus.html")).href, page = await show(url);
-  const mouse = (type, x, y, more = {}) => page.call("Input.dispatchMouseEvent", { type, x, y, button: "left", clickCount: 1, ...more });
+  const mouse = (type, x, y, more = {}) => page.call("Input.dispatchMouseEvent", { type, x, y: y + TITLE, button: "left", clickCount: 1, ...more });
   await mouse("mousePressed", 120, 150);
   await mouse("mouseReleased", 120, 150);
   const pick = await page.until(`heard.find((e) => e.type === "pick")`);
@@ -291,6 +291,8 @@ await check("fingers on a phone", async () => {
   }
   const [under, bar] = await page.evaluate(`[${part("canvas")}.getBoundingClientRect().bottom, ${part(".bar")}.getBoundingClientRect().top]`);
   assert.equal(under, bar, "the picture ends where the bar begins");
+  const [title, over] = await page.evaluate(`[document.querySelector("h1").getBoundingClientRect().bottom, ${part("canvas")}.getBoundingClientRect().top]`);
+  assert.equal(title, over, "the picture begins where the title ends");
   await keep(page, "phone.png");
   check_quiet(page, url);
   await page.close();

@@ -11,7 +11,8 @@ import { launch } from "./chromium.mjs";
 
 export const [program, scratch, pictures] = process.argv.slice(2).map((path) => resolve(path));
 export const WIDTH = 400, HEIGHT = 300;
-export const SCREEN_HEIGHT = HEIGHT + 53; // on a screen this narrow the bar is under the picture
+/// On a screen this narrow the bar is under the picture, and the title, where a page has one, above it.
+export const TITLE = 36, SCREEN_HEIGHT = HEIGHT + 53;
 
 function skip(why) {
   console.log(`skipped: ${why}`);
@@ -62,7 +63,7 @@ export async function finish() {
 }
 
 export async function show(url, options) {
-  const page = await browser.page(url, { width: WIDTH, height: SCREEN_HEIGHT, before: HEAR, ...options });
+  const page = await browser.page(url, { width: WIDTH, height: SCREEN_HEIGHT + (/drop\.html/.test(url) ? 0 : TITLE), before: HEAR, ...options });
   await shown(page);
   return page;
 }
