@@ -24,7 +24,7 @@ TEST(test_cube_points) {
     double *p = shape_places(cloud);
     const float *n = shape_stream(cloud, EWA_NORMAL), *u = shape_stream(cloud, EWA_TANGENT_U);
     const double radius = 3 * sqrt((double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2])), spacing = radius / 1.6;
-    uint64_t of_face[6] = {0}, inner = 0;
+    uint64_t of_face[6] = {0}, inner = 0, in_row = 0;
     bool *is_inner = calloc(count, 1);
     assert_non_null(is_inner);
     for (uint64_t i = 0; i < count; i++) {
@@ -34,8 +34,12 @@ TEST(test_cube_points) {
         for (int c = 0; c < 3; c++)
             assert_true(c == face / 2 ? p[3 * i + c] == (face & 1 ? 1 : -1) : fabs(p[3 * i + c]) <= 1);
         bool near_edge = false;
-        for (int c = 0; c < 3; c++)
-            near_edge = near_edge || (c != face / 2 && 1 - fabs(p[3 * i + c]) < 0.21 * spacing);
+        for (int c = 0; c < 3; c++) {
+            if (c == face / 2) continue;
+            const double inside = (1 - fabs(p[3 * i + c])) / spacing;
+            near_edge = near_edge || inside < 0.21;
+            in_row += fabs(inside - 0.2) < 0.002;
+        }
         is_inner[i] = !near_edge;
         inner += !near_edge;
         for (uint64_t k = 0; k < i; k++) {
@@ -52,6 +56,7 @@ TEST(test_cube_points) {
     for (int f = 0; f < 6; f++)
         assert_true(fabs((double)of_face[f] - (double)count / 6) < 0.05 * (double)count / 6);
     assert_true((double)inner > 0.7 * (double)count);
+    assert_true(in_row > 800); // some 40 along each side of each of twelve edges, within the steps of floats
     mesh.context = many;
     ewa_cloud *other = shape_sample(&mesh, &options);
     mesh.context = context;
