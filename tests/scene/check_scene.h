@@ -54,8 +54,7 @@ static inline ewa_scene *make_scene_of(ewa_context *context, ewa_object object, 
 }
 
 static inline ewa_camera place(ewa_scene *scene) {
-    ewa_view_options options;
-    ewa_view_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_view_options, options);
     options.width_px = WIDTH;
     options.height_px = HEIGHT;
     ewa_camera camera;

@@ -19,9 +19,8 @@ typedef struct scan {
 
 /// A square with a step, shifted along x.
 static ewa_cloud *make_scan(ewa_context *context, const scan *of, double shift_world) {
-    ewa_cloud *cloud = NULL;
     void *position = NULL, *normal = NULL, *radius = NULL, *data = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
@@ -63,8 +62,7 @@ static void count_notes(void *user, ewa_severity severity, const char *message) 
 /// Draws scans from above, coloured as `coloring` (NULL: the default) says.
 static void draw(const scan *scans, int count, const ewa_coloring *coloring, look *to) {
     *to = (look){.notes = 0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.message = count_notes;
     options.message_user = &to->notes;
     options.message_level = EWA_SEVERITY_NOTE;
@@ -77,8 +75,7 @@ static void draw(const scan *scans, int count, const ewa_coloring *coloring, loo
     for (int k = 0; k < count; k++) {
         clouds[k] = make_scan(context, &scans[k], k * (SIDE + 10.0));
         ewa_asset *asset = NULL;
-        ewa_instance instance;
-        ewa_instance_init(&instance, sizeof instance);
+        WITH_DEFAULTS(ewa_instance, instance);
         if (coloring) instance.coloring = *coloring;
         assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = clouds[k]}, NULL, &asset), EWA_OK);
         assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
@@ -103,8 +100,7 @@ static void draw(const scan *scans, int count, const ewa_coloring *coloring, loo
 }
 
 static ewa_coloring by(const char *word) {
-    ewa_coloring coloring;
-    ewa_coloring_init(&coloring, sizeof coloring);
+    WITH_DEFAULTS(ewa_coloring, coloring);
     snprintf(coloring.attribute, sizeof coloring.attribute, "%s", word);
     return coloring;
 }
@@ -202,9 +198,8 @@ TEST(test_together) {
 
 /// Colours a cloud of four points by a number of its own.
 static void color_numbers(ewa_context *context, const char *name, const double given[4], ewa_coloring *coloring, ewa_legend *legend) {
-    ewa_cloud *cloud = NULL;
     void *data;
-    assert_int_equal(ewa_cloud_create(context, 4, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 4);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     memset(data, 0, 4 * 3 * sizeof(double));
     assert_int_equal(ewa_cloud_add(cloud, name, EWA_F64, 1, &data), EWA_OK);
@@ -218,8 +213,7 @@ static void color_numbers(ewa_context *context, const char *name, const double g
 TEST(whole_numbers_have_rows) {
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
-    ewa_coloring coloring;
-    ewa_coloring_init(&coloring, sizeof coloring);
+    WITH_DEFAULTS(ewa_coloring, coloring);
     ewa_legend legend;
     color_numbers(context, "return_number", (double[]){5, 1, -2, 1}, &coloring, &legend);
     assert_false(legend.classes);
@@ -262,15 +256,13 @@ static void draw_gaussians(const ewa_gaussians *set, const ewa_coloring *colorin
     ewa_scene *scene = NULL;
     ewa_scene_renderer *renderer = NULL;
     ewa_camera camera;
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     if (coloring) instance.coloring = *coloring;
     const ewa_asset_source source = {.gaussians = set};
     assert_int_equal(ewa_asset_create(set->context, &source, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(set->context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
-    ewa_view_options view;
-    ewa_view_options_init(&view, sizeof view);
+    WITH_DEFAULTS(ewa_view_options, view);
     view.width_px = view.height_px = 64;
     assert_int_equal(ewa_scene_place_camera(scene, &view, &camera, NULL), EWA_OK);
     assert_int_equal(ewa_scene_renderer_create(set->context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
@@ -302,8 +294,7 @@ TEST_ON(gaussians_by_numbers, 2) {
     set.opacities[0] = 0.125f, set.opacities[1] = 0.9375f;
     static const char *const words[] = {"opacity", "size", "z"};
     for (int n = 0; n < 4; n++) {
-        ewa_coloring coloring;
-        ewa_coloring_init(&coloring, sizeof coloring);
+        WITH_DEFAULTS(ewa_coloring, coloring);
         double low = INFINITY, high = -INFINITY, numbers[COUNT];
         for (size_t i = 0; i < COUNT; i++) {
             const float *s = set.scales + 3 * i;

@@ -60,8 +60,7 @@ static uint32_t draw(const film *of, ewa_scene_renderer *renderer, double times,
 }
 
 static ewa_scene_options options_of(bool many_frames) {
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     assert_false(options.many_frames);
     options.many_frames = many_frames;
     return options;

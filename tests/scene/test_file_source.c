@@ -80,8 +80,7 @@ static bool stop_far(void *user, const char *stage, double fraction) {
 }
 
 static ewa_context *far_context(far_place *place, check_log *log, check_memory *memory) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     if (memory) options.allocator = check_allocator(memory);
     options.thread_count = 2;
     options.message = check_log_keep;
@@ -137,8 +136,7 @@ static ewa_status load(ewa_context *context, const char *path, ewa_octree_levels
 
 /// Draws a scene as it is placed, `zoom` times as large.
 static ewa_status draw(ewa_context *context, ewa_scene *scene, double zoom, uint8_t *rgba8) {
-    ewa_view_options view;
-    ewa_view_options_init(&view, sizeof view);
+    WITH_DEFAULTS(ewa_view_options, view);
     view.width_px = WIDTH, view.height_px = HEIGHT;
     ewa_camera camera;
     ewa_scene_renderer *renderer = NULL;
@@ -218,8 +216,7 @@ TEST(test_named_files) {
     for (int none = 0; none < 2; none++) {
         far_place place = {.reads_left = -1};
         check_log log = {0};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_context_options, options);
         options.message = check_log_keep, options.message_user = &log;
         options.open_file = open_far, options.open_file_user = &place;
         options.named_files = none ? EWA_NAMED_NONE : EWA_NAMED_BELOW;
@@ -297,8 +294,7 @@ static bool open_without_reader(void *user, const char *path, ewa_file_source *s
 
 TEST(test_no_reader) {
     check_log log = {0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.message = check_log_keep, options.message_user = &log;
     options.open_file = open_without_reader;
     ewa_context *context = NULL;

@@ -14,8 +14,7 @@ static ewa_cloud *make_discs(ewa_context *context, bool clip) {
     static const float lines[6] = {1, 0, 0, 0, 0, 0};
     static const char *const names[] = {EWA_POSITION, EWA_TANGENT_U, EWA_TANGENT_V, EWA_CLIP0};
     const float *const streams[] = {positions, us, vs, lines};
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, 2, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 2);
     for (int i = 0; i < (clip ? 4 : 3); i++) {
         void *data = NULL;
         assert_int_equal(ewa_cloud_add(cloud, names[i], EWA_F32, 3, &data), EWA_OK);
@@ -26,9 +25,7 @@ static ewa_cloud *make_discs(ewa_context *context, bool clip) {
 
 /// Looks along z from -10, 16 pixels per unit at the first disc.
 static ewa_camera make_camera(bool orthographic) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.cx_px = camera.cy_px = SIDE / 2;
     camera.world_to_camera[11] = 10;
     camera.projection = orthographic ? EWA_ORTHOGRAPHIC : EWA_PERSPECTIVE;
@@ -39,8 +36,7 @@ static ewa_camera make_camera(bool orthographic) {
 /// Draws `count` outlines of a cloud's surfels on white, and destroys it; returns how many pixels are no longer white.
 static int outline(ewa_context *context, ewa_cloud *cloud, bool close_gaps, bool orthographic, uint32_t count,
                    uint8_t *pixels) {
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     options.close_gaps = close_gaps;
     ewa_scene *scene = NULL;
     ewa_scene_renderer *renderer = NULL;
@@ -101,8 +97,7 @@ TEST_ON(test_closed_gaps, 1) {
     int dark[2];
     for (int closed = 0; closed < 2; closed++) {
         void *position = NULL, *normal = NULL, *radius = NULL;
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, COLUMNS * COLUMNS, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, COLUMNS * COLUMNS);
         assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
         assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
         assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);

@@ -24,9 +24,8 @@ static double light_of(const double direction[3], int c) { return 0.5 + 0.4 * di
 
 /// A sphere around EYE whose colours are those of directions from there.
 static ewa_cloud *make_sphere(ewa_context *context) {
-    ewa_cloud *cloud = NULL;
     void *position = NULL, *normal = NULL, *radius = NULL, *color = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
@@ -55,8 +54,7 @@ static void open_stage(uint32_t threads, stage *s) {
     s->context = check_context(threads, NULL);
     s->cloud = make_sphere(s->context);
     ewa_asset *asset = NULL;
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     options.render.shading = EWA_SHADING_NONE;
     assert_int_equal(ewa_scene_create(s->context, &options, &s->scene), EWA_OK);
     assert_int_equal(ewa_asset_create(s->context, &(ewa_asset_source){.cloud = s->cloud}, NULL, &asset), EWA_OK);
@@ -74,9 +72,7 @@ static void close_stage(stage *s) {
 
 /// A camera at EYE that looks along +y with z up, turned by an angle about the vertical, then tilted up.
 static ewa_camera make_camera(uint32_t width_px, uint32_t height_px, double turned, double tilted) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = width_px, camera.height_px = height_px;
+    ewa_camera camera = check_camera(width_px, height_px);
     const double c = cos(turned), s = sin(turned), ct = cos(tilted), st = sin(tilted);
     const double right[3] = {c, s, 0}, level[3] = {-s, c, 0};
     double rows[3][3];
@@ -95,8 +91,7 @@ static ewa_camera make_camera(uint32_t width_px, uint32_t height_px, double turn
 }
 
 static ewa_panorama_options make_options(ewa_panorama_kind kind) {
-    ewa_panorama_options options;
-    ewa_panorama_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_panorama_options, options);
     options.kind = kind;
     return options;
 }
@@ -221,8 +216,7 @@ TEST(test_place) {
     stage s;
     open_stage(1, &s);
     ewa_panorama_options options = make_options(EWA_PANORAMA_EQUIRECTANGULAR);
-    ewa_view_options view;
-    ewa_view_options_init(&view, sizeof view);
+    WITH_DEFAULTS(ewa_view_options, view);
     view.width_px = 200, view.height_px = 100;
     ewa_camera camera;
     for (int k = 0; k < 3; k++) {
@@ -249,9 +243,8 @@ TEST(test_points) {
     stage s;
     open_stage(1, &s);
     const float places[4][3] = {{1.5f, -2, 30}, {0.5f, -1, 30}, {-0.5f, -2, 30}, {0.5f, -2.5f, 30.5f}};
-    ewa_cloud *cloud = NULL;
     void *position = NULL;
-    assert_int_equal(ewa_cloud_create(s.context, 4, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(s.context, 4);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
     memcpy(position, places, sizeof places);
     ewa_scene *scene = NULL;

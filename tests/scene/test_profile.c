@@ -29,9 +29,8 @@ static int leave(void **state) {
 
 /// A ramp over [0, 10] x [-5, 5], of height x / 2 + 3, moved by `at_world`; its points have numbers.
 static ewa_cloud *make_ramp(const double at_world[3]) {
-    ewa_cloud *cloud = NULL;
     void *places, *numbers;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &places), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "number", EWA_U32, 1, &numbers), EWA_OK);
     for (int i = 0; i < POINTS; i++) {
@@ -54,8 +53,7 @@ static void add(ewa_scene *scene, ewa_cloud **cloud, const ewa_asset_options *op
 
 static ewa_scene *make_scene(void) {
     ewa_scene *scene = NULL;
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     options.up = EWA_UP_Z;
     assert_int_equal(ewa_scene_create(context, &options, &scene), EWA_OK);
     return scene;
@@ -63,8 +61,7 @@ static ewa_scene *make_scene(void) {
 
 static ewa_profile take(ewa_scene *scene, const double *line, uint32_t corner_count, double width_world) {
     ewa_profile profile;
-    ewa_profile_options options;
-    ewa_profile_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_profile_options, options);
     options.width_world = width_world;
     assert_int_equal(ewa_scene_profile(scene, line, corner_count, &options, &profile), EWA_OK);
     return profile;
@@ -181,8 +178,7 @@ TEST(test_what_is_shown) {
         profile = take(scene, line[0], 2, 0.25);
         assert_int_equal(ewa_cloud_point_count(profile.points), 17);
         ewa_profile_free(&profile);
-        ewa_instance hidden;
-        ewa_instance_init(&hidden, sizeof hidden);
+        WITH_DEFAULTS(ewa_instance, hidden);
         hidden.visible = false;
         assert_int_equal(ewa_scene_set(scene, (uint32_t)order, &hidden), EWA_OK); // the first ramp
         profile = take(scene, line[0], 2, 0.25);
@@ -200,14 +196,12 @@ TEST(test_y_up) {
     static const double line[2][3] = {{0, 0, 0}, {10, 0, 0}};
     ewa_scene *scene = make_scene();
     ewa_cloud *cloud = make_ramp((double[3]){0});
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_asset_options, options);
     const double turn[16] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
     memcpy(options.to_world, turn, sizeof turn);
     add(scene, &cloud, &options, NULL);
     ewa_profile profile;
-    ewa_profile_options own;
-    ewa_profile_options_init(&own, sizeof own);
+    WITH_DEFAULTS(ewa_profile_options, own);
     own.up_world[1] = 2; // any length
     assert_int_equal(ewa_scene_profile(scene, line[0], 2, &own, &profile), EWA_OK);
     assert_true(profile.up_world[1] == 1);
@@ -253,8 +247,7 @@ TEST(test_colors) {
     for (int committed = 0; committed < 2; committed++) {
         ewa_scene *scene = make_scene();
         ewa_cloud *cloud = make_ramp((double[3]){0});
-        ewa_instance instance;
-        ewa_instance_init(&instance, sizeof instance);
+        WITH_DEFAULTS(ewa_instance, instance);
         strcpy(instance.coloring.attribute, "z");
         instance.coloring.map = EWA_COLORING_TURBO;
         add(scene, &cloud, NULL, &instance);
@@ -300,8 +293,7 @@ TEST(test_graph) {
     static const double line[2][3] = {{-0.125, 0, 0}, {10.125, 0, 0}};
     ewa_scene *scene = make_scene();
     ewa_cloud *cloud = make_ramp((double[3]){0});
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     instance.coloring.tinted = true;
     instance.coloring.tint[0] = 1;
     add(scene, &cloud, NULL, &instance);
@@ -310,8 +302,7 @@ TEST(test_graph) {
     const ewa_canvas canvas = {rgba8, WIDTH, HEIGHT}, other = {again, WIDTH, HEIGHT};
     static const double times[] = {0.25, 1, 1.5, 4};
     for (int k = 0; k < 4; k++) {
-        ewa_profile_graph_options options;
-        ewa_profile_graph_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_profile_graph_options, options);
         options.exaggeration = times[k];
         options.point_size_px = 4;
         assert_int_equal(ewa_profile_draw(&profile, &options, &canvas), EWA_OK);

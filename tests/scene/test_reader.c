@@ -45,8 +45,7 @@ static int leave(void **state) {
 static void open_scene(shown *s, const char *name) {
     char path[512];
     ewa_asset *asset = NULL;
-    ewa_asset_options how;
-    ewa_asset_options_init(&how, sizeof how);
+    WITH_DEFAULTS(ewa_asset_options, how);
     how.levels = EWA_OCTREE_ALWAYS;
     how.own_context = true;
     *s = (shown){.context = check_context(2, &heard)};
@@ -59,8 +58,7 @@ static void open_scene(shown *s, const char *name) {
     assert_int_equal(ewa_scene_commit(s->scene), EWA_OK);
     ewa_asset_release(&asset);
     assert_int_equal(ewa_scene_renderer_create(s->context, EWA_BACKEND_CPU, NULL, &s->renderer), EWA_OK);
-    ewa_view_options view;
-    ewa_view_options_init(&view, sizeof view);
+    WITH_DEFAULTS(ewa_view_options, view);
     view.width_px = WIDTH, view.height_px = HEIGHT;
     assert_int_equal(ewa_scene_place_camera(s->scene, &view, &s->camera, NULL), EWA_OK);
     s->camera.fx_px *= 2, s->camera.fy_px *= 2;
@@ -140,8 +138,7 @@ TEST(looks_that_change) {
     assert_int_equal(ewa_scene_reader_choose(reader, one.scene, &one.camera, &one.options, MOST, &count), EWA_OK);
     assert_int_equal(count, 1);
     assert_int_equal(ewa_scene_reader_read(reader), EWA_OK);
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     instance.coloring.tinted = true;
     assert_int_equal(ewa_scene_set(one.scene, 0, &instance), EWA_OK);
     assert_int_equal(ewa_scene_commit(one.scene), EWA_OK);

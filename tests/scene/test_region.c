@@ -32,9 +32,8 @@ static int leave(void **state) {
 
 /// Surfels on a grid over [0, 20] x [0, 20], of classes 0 to 4 by x mod 5, in colours.
 static ewa_cloud *make_grid(void) {
-    ewa_cloud *cloud = NULL;
     void *places, *normals, *radii, *classes, *colors;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &places), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normals), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radii), EWA_OK);
@@ -70,9 +69,7 @@ static void set_regions(ewa_scene *scene, const ewa_region *regions, uint32_t co
 }
 
 static ewa_camera make_camera(bool flat) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = WIDTH, camera.height_px = HEIGHT;
+    ewa_camera camera = check_camera(WIDTH, HEIGHT);
     camera.cx_px = WIDTH / 2, camera.cy_px = HEIGHT / 2;
     if (flat) {
         camera.projection = EWA_ORTHOGRAPHIC;
@@ -130,8 +127,7 @@ TEST(test_turned_boxes) {
                          .box_axes_world = {half, half, 0, half, -half, 0, 0, 0, 1}};
     assert_int_equal(count_left(&corner, 1), 5 + 4 + 3 + 2 + 1);
     ewa_scene *scene = NULL;
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     options.region_count = 1;
     options.regions[0] = corner;
     options.regions[0].box_axes_world[4] = NAN;
@@ -239,8 +235,7 @@ TEST(test_files) {
     assert_int_equal(ewa_lod_build(context, &path, 1, "region.copc.laz", NULL, NULL), EWA_OK);
     for (int k = 0; k < 2; k++) {
         ewa_asset *asset = NULL;
-        ewa_asset_options options;
-        ewa_asset_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_asset_options, options);
         options.levels = EWA_OCTREE_ALWAYS;
         ewa_scene *scene = NULL, *again = NULL;
         assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
@@ -303,8 +298,7 @@ static void draw_file(ewa_scene *scene, uint8_t *rgba8) {
 static ewa_scene *open_file(const char *path, const char *transfer) {
     ewa_asset *asset = NULL;
     ewa_scene *scene = NULL;
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_asset_options, options);
     options.transfer = transfer;
     assert_int_equal(ewa_asset_load(context, path, &options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);

@@ -20,9 +20,8 @@ static ewa_cloud *bare_part(ewa_context *context, const ewa_cloud *from,
         ewa_attribute_read_f64(position, i, 1, p);
         kept += side(i, p);
     }
-    ewa_cloud *cloud = NULL;
     void *data = NULL;
-    assert_int_equal(ewa_cloud_create(context, kept, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, kept);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     for (uint64_t i = 0; i < count; i++) {
         ewa_attribute_read_f64(position, i, 1, p);
@@ -188,8 +187,7 @@ TEST_ON(test_one_range, 0) {
         assert_int_equal(ewa_cloud_add(clouds[k], "height", EWA_F64, 1, &data), EWA_OK);
         for (int i = 0; i < 51; i++) ((double *)data)[i] = 2 * i + k; // 0 to 101, all of them
     }
-    ewa_coloring coloring;
-    ewa_coloring_init(&coloring, sizeof coloring);
+    WITH_DEFAULTS(ewa_coloring, coloring);
     snprintf(coloring.attribute, sizeof coloring.attribute, "height");
     ewa_legend legend;
     assert_int_equal(ewa_clouds_color(clouds, 2, &coloring, &legend), EWA_OK);
@@ -209,8 +207,7 @@ TEST(test_refused) {
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
     ewa_scene *scene = make_scene(context);
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_asset_options, options);
     ewa_asset *asset = NULL;
     options.to_world[0] = 0;
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset),
@@ -225,8 +222,7 @@ TEST(test_refused) {
     assert_int_equal(ewa_asset_load(context, "/nowhere/there.ply", NULL, &asset), EWA_ERROR_IO);
     assert_non_null(strstr(log.text, "/nowhere/there.ply"));
     add_cloud(context, scene, cloud, NULL);
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     instance.opacity = 2;
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
     instance.opacity = 1;
@@ -307,8 +303,7 @@ TEST(test_cloud_of_scene) {
     assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "shows no points"));
     for (int i = 0; i < 2; i++) {
-        ewa_instance instance;
-        ewa_instance_init(&instance, sizeof instance);
+        WITH_DEFAULTS(ewa_instance, instance);
         instance.radius_scale = 1 + i;
         add_cloud(context, scene, clouds[i], &instance);
         assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_OK);
@@ -491,8 +486,7 @@ TEST_ON(test_asked_up, 1) {
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_TORUS, &cloud);
     for (int axis = 0; axis < 3; axis++) {
-        ewa_view_options options;
-        ewa_view_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_view_options, options);
         options.up_world[axis] = axis == 1 ? -2 : 3;
         ewa_view_info info;
         ewa_camera camera;
@@ -516,9 +510,8 @@ TEST_ON(test_degrees, 1) {
             places[i][0] = cases[k].x + 0.01 * (i & 1) - 0.005, places[i][1] = cases[k].y + 0.01 * (i >> 1 & 1) - 0.005;
             places[i][2] = cases[k].z + 20 * (i >> 2);
         }
-        ewa_cloud *cloud = NULL;
         char text[EWA_DIAGNOSIS_TEXT_BYTES];
-        assert_int_equal(ewa_cloud_create(context, 8, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, 8);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, places, sizeof places[0]), EWA_OK);
         assert_int_equal(ewa_cloud_find_degrees(cloud, text), cases[k].degrees);
         ewa_cloud_destroy(&cloud);

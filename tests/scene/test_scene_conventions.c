@@ -16,8 +16,7 @@ static const char *unit_of(ewa_context *context, const char *crs, const char *no
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     if (crs) assert_int_equal(ewa_cloud_set_note(cloud, "crs", crs, strlen(crs)), EWA_OK);
     if (note) assert_int_equal(ewa_cloud_set_note(cloud, "crs_unit", note, strlen(note)), EWA_OK);
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_asset_options, options);
     // Turned by a quarter, and as large as the scale says.
     const double to_world[16] = {0, -scale, 0, 500, scale, 0, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1};
     memcpy(options.to_world, to_world, sizeof to_world);
@@ -89,8 +88,7 @@ TEST(test_two_ups) {
         ewa_cloud *clouds[2];
         for (int k = 0; k < 2; k++) {
             clouds[k] = make_stand(context, rows[i].up[k]);
-            ewa_asset_options options;
-            ewa_asset_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_asset_options, options);
             if (k && rows[i].moved) options.to_world[3] = 1;
             ewa_asset *asset = NULL;
             const ewa_asset_source source = {.cloud = clouds[k], .name = rows[i].names[k]};

@@ -37,8 +37,7 @@ static int set_up(void **state) {
     mkdir("deep", 0777);
     save_object(context, EWA_OBJECT_TORUS, "torus.ply");
     save_object(context, EWA_OBJECT_SPHERE, "deep/sphere.ply");
-    ewa_volume_generate_options options;
-    ewa_volume_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = EWA_VOLUME_BALL;
     for (int c = 0; c < 3; c++) options.dims[c] = 16;
     ewa_volume volume;
@@ -59,8 +58,7 @@ static void add(ewa_context *context, ewa_scene *scene, const char *path, const 
 
 /// Options of which many are no default.
 static ewa_scene_options make_options(void) {
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     options.up = EWA_UP_MINUS_Y;
     options.surfels.radius_scale = 1.25;
     options.render.kernel = EWA_KERNEL_AFFINE;
@@ -161,8 +159,7 @@ TEST_ON(test_saved_assets, 0) {
     static const char *const files[] = {"square.off", "torus.ply", "deep/ball.nrrd"};
     FILE *file = fopen(files[0], "w");
     assert_true(file && fputs(off, file) >= 0 && fclose(file) == 0);
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_asset_options, options);
     options.cutoff = 2;
     options.voxel_level_count = 2;
     options.reach_steps = 3;
@@ -189,13 +186,11 @@ TEST_ON(test_files_in_files, 0) {
     assert_int_equal(ewa_scene_create(context, NULL, &made), EWA_OK);
     assert_int_equal(ewa_scene_open(opened, "outer.json", NULL), EWA_OK);
     assert_int_equal(ewa_scene_count(opened), 5);
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     instance.coloring.tinted = true;
     memcpy(instance.coloring.tint, (const double[3]){1, 0.5, 0}, 3 * sizeof(double));
     add(context, made, "torus.ply", NULL, &instance);
-    ewa_asset_options asset;
-    ewa_asset_options_init(&asset, sizeof asset);
+    WITH_DEFAULTS(ewa_asset_options, asset);
     const double both[16] = {0, -0.5, 0, 1.75, 0.5, 0, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1},
                  outer[16] = {0, -1, 0, 2, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     memcpy(asset.to_world, both, sizeof both);
@@ -219,8 +214,7 @@ TEST_ON(test_callers_options_win, 0) {
     write_text("options.json",
                "{\"ewa_scene\": 1, \"options\": {\"up\": \"z\", \"render\": {\"ambient\": 0.5, "
                "\"eye_dome\": 0.5}, \"lights\": [{\"color\": [1, 0, 0]}]}, \"items\": []}");
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     options.render.ambient = 0.25;
     options.render.light_count = 1;
     ewa_light_init(&options.render.lights[0]);
@@ -242,8 +236,7 @@ TEST_ON(test_cameras_keep_their_heights, 0) {
     ewa_camera camera = place(scene), placed;
     camera.cx_px = 40, camera.cy_px = 30;
     assert_int_equal(ewa_scene_set_camera(scene, &camera), EWA_OK);
-    ewa_view_options options;
-    ewa_view_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_view_options, options);
     assert_int_equal(ewa_scene_place_camera(scene, &options, &placed, NULL), EWA_OK);
     assert_memory_equal(&camera, &placed, sizeof camera);
     options.width_px = 400, options.height_px = 2 * HEIGHT;
@@ -518,8 +511,7 @@ TEST(test_unsaveable) {
     assert_non_null(strstr(heard.text, "torus.ply"));
     assert_int_not_equal(access("deep/outside.json", F_OK), 0);
     ewa_cloud *cloud = NULL;
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.point_count = 100;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
     ewa_asset *asset = NULL;

@@ -23,13 +23,12 @@ static void measure_slant(const planes *of, double slant[2]) {
 
 /// Adds a cloud, or the surfels made of it.
 static ewa_surfels *add_as(ewa_context *context, ewa_scene *scene, const ewa_cloud *cloud, bool resident) {
-    ewa_surfels *surfels = NULL;
     if (!resident) {
         add_cloud(context, scene, cloud, NULL);
         return NULL;
     }
     ewa_asset *asset = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.surfels = surfels}, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
     ewa_asset_release(&asset);
@@ -87,8 +86,7 @@ TEST_ON(test_plain_mesh, 1) {
         assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.mesh = &mesh}, NULL, &asset), EWA_OK);
         ewa_mesh_free(&mesh);
         ewa_scene *scene = make_scene(context);
-        ewa_instance instance;
-        ewa_instance_init(&instance, sizeof instance);
+        WITH_DEFAULTS(ewa_instance, instance);
         instance.coloring.tinted = kind == TINTED;
         if (kind == HEIGHTS) snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "z");
         assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
@@ -109,9 +107,8 @@ TEST_ON(test_plain_mesh, 1) {
 /// A sloping wall in steps of depth as a depth camera at the origin sees it, of one colour, linear.
 static ewa_cloud *make_photograph(ewa_context *context, float color) {
     enum { COLUMNS = 80, ROWS = 60 };
-    ewa_cloud *cloud = NULL;
     float(*position)[3] = NULL, (*colors)[3] = NULL;
-    assert_int_equal(ewa_cloud_create(context, COLUMNS * ROWS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, COLUMNS * ROWS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&colors), EWA_OK);
     for (int i = 0; i < COLUMNS * ROWS; i++) {
@@ -130,8 +127,7 @@ TEST_ON(test_photographed, 1) {
     for (int kind = 0; kind < KINDS; kind++) {
         ewa_cloud *cloud = make_photograph(context, 0.5f);
         if (kind == NORMALS) {
-            ewa_estimate_options options;
-            ewa_estimate_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_estimate_options, options);
             assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         }
         const double away[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

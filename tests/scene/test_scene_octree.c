@@ -45,8 +45,7 @@ static int enter(void **state) {
         ((uint8_t *)other)[i] = (uint8_t)(2 * (p[0] + 1));
     }
     // With curvatures that the file says: those that an octree measures, piece by piece, are like those of a scene.
-    ewa_estimate_options estimate;
-    ewa_estimate_options_init(&estimate, sizeof estimate);
+    WITH_DEFAULTS(ewa_estimate_options, estimate);
     assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
     assert_non_null(ewa_cloud_find(cloud, EWA_CURVATURE));
     lod_save(cloud, points);
@@ -61,8 +60,7 @@ static int leave(void **state) {
 }
 
 static ewa_asset_options asset_options(const double to_world[16]) {
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_asset_options, options);
     options.levels = EWA_OCTREE_ALWAYS;
     if (to_world) memcpy(options.to_world, to_world, sizeof options.to_world);
     return options;
@@ -73,8 +71,7 @@ static ewa_scene *make_scene(ewa_context *context, const char *name, const ewa_a
     char path[512];
     ewa_asset *asset = NULL;
     ewa_scene *scene = NULL;
-    ewa_scene_options of;
-    ewa_scene_options_init(&of, sizeof of);
+    WITH_DEFAULTS(ewa_scene_options, of);
     of.close_gaps = false; // the radii of both are those of the file
     assert_int_equal(ewa_asset_load(context, scratch_path(name, path), options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, &of, &scene), EWA_OK);
@@ -84,8 +81,7 @@ static ewa_scene *make_scene(ewa_context *context, const char *name, const ewa_a
 }
 
 static ewa_camera place(ewa_scene *scene) {
-    ewa_view_options options;
-    ewa_view_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_view_options, options);
     options.width_px = WIDTH, options.height_px = HEIGHT;
     ewa_camera camera;
     assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, NULL), EWA_OK);
@@ -196,8 +192,7 @@ TEST_ON(test_instances, 2) {
     const ewa_camera camera = place(cloud);
     draw(context, octree, &camera, 0, &third);
     for (int k = 0; k < 6; k++) {
-        ewa_instance instance;
-        ewa_instance_init(&instance, sizeof instance);
+        WITH_DEFAULTS(ewa_instance, instance);
         snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "%s", attributes[k]);
         instance.coloring.ranged = instance.coloring.percent[0] = k == 1; // of all, and of given ends
         instance.coloring.range[1] = 0.3;
@@ -214,8 +209,7 @@ TEST_ON(test_instances, 2) {
         hold_like("its levels", &first, &second, k < 4 ? 38 : 33); // whose rims are wider
         assert_true((ewa_scene_legend(octree, 0) != NULL) == (k < 4));
     }
-    ewa_instance plain;
-    ewa_instance_init(&plain, sizeof plain);
+    WITH_DEFAULTS(ewa_instance, plain);
     set(octree, &plain);
     draw(context, octree, &camera, 0, &second);
     assert_memory_equal(second.rgba8, third.rgba8, sizeof second.rgba8);
@@ -228,8 +222,7 @@ TEST_ON(test_one_scale, 1) {
     ewa_scene *scene = make_scene(context, file, &still);
     ewa_asset *cloud = NULL;
     char path[512];
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "z");
     assert_int_equal(ewa_asset_load(context, scratch_path(points, path), &away, &cloud), EWA_OK);
     set(scene, &instance);
@@ -290,8 +283,7 @@ TEST(test_attributes_of_levels) {
             const ewa_asset_options options = asset_options(NULL);
             ewa_scene *octree = make_scene(context, file, &options), *cloud = make_scene(context, points, &options);
             const ewa_camera camera = place(cloud);
-            ewa_instance instance;
-            ewa_instance_init(&instance, sizeof instance);
+            WITH_DEFAULTS(ewa_instance, instance);
             snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "%s", words[k]);
             set(octree, &instance), set(cloud, &instance);
             draw(context, cloud, &camera, 0, &first);
@@ -321,8 +313,7 @@ TEST(test_choice_of_attributes) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(2, &log);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        ewa_lod_build_options options;
-        ewa_lod_build_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_lod_build_options, options);
         options.memory_bytes = LOD_MEMORY_BYTES;
         options.attributes = cases[k].list;
         assert_int_equal(lod_build(context, names, 1, "chosen.copc.laz", &options, NULL), cases[k].status);
@@ -352,8 +343,7 @@ TEST(test_refused) {
     ewa_scene *scene = make_scene(context, file, &options);
     const ewa_camera camera = place(scene);
     draw(context, scene, &camera, 16, &first);
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "user_data");
     set(scene, &instance);
     assert_int_equal(try_draw(context, scene, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
@@ -406,8 +396,7 @@ TEST_ON(test_lent, 1) {
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.lod = lod}, &options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
     const ewa_camera camera = place(scene);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     ewa_frame frame = {.rgba8 = third.rgba8};
     assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, NULL, &frame, NULL), EWA_OK);
     draw(context, scene, &camera, 16, &first);
@@ -426,8 +415,7 @@ TEST_ON(test_lent, 1) {
 static void add_three(ewa_context *context, ewa_scene *scene, ewa_lod *lent) {
     char path[512];
     ewa_asset *asset = NULL;
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     for (int i = 0; i < 3; i++) {
         const ewa_asset_options options = asset_options(i ? turned : NULL);
         if (i < 2 || !lent) ewa_asset_release(&asset);
