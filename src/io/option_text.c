@@ -56,9 +56,14 @@ static ewa_status read_value(const ewa_option *option, const char **text, option
     }
     if (!after || !isfinite(value->number) || (*after && !(option->count && *after == ',')))
         return ewa_text_wrong(problem, "'%.80s' is not a%s number", *text, whole ? " whole" : "");
-    if (!ewa_option_allows(option, value->number))
+    if (!ewa_option_allows(option, value->number)) {
+        char number[32];
+        snprintf(number, sizeof number, "%g", value->number);
+        char *comma = strchr(number, ','); // where a program has chosen a locale
+        if (comma) *comma = '.';
         return whole ? ewa_text_wrong(problem, "%" PRId64 " is outside %s", value->integer, range)
-                     : ewa_text_wrong(problem, "%g is outside %s", value->number, range);
+                     : ewa_text_wrong(problem, "%s is outside %s", number, range);
+    }
     *text = after;
     return EWA_OK;
 }
