@@ -10,7 +10,9 @@ newer functions, shows names of ewa's alone, and comes with the licences of what
 """
 from __future__ import annotations
 
+import hashlib
 import re
+import struct
 import sys
 import zipfile
 from pathlib import PurePosixPath
@@ -26,6 +28,7 @@ LIBRARIES = {
 }
 LICENCES = ("zlib", "libdeflate", "cjson", "libzstd", "libspng", "bzip2", "expat", "libwebp", "libjpeg-turbo", "openexr")
 MOST_BYTES = 5_000_000
+LINKERS = ("__dso_handle", "_mh_dylib_header")  # names that a linker gives a library of macOS
 
 
 def check_elf(library: lief.ELF.Binary, system: str, version: tuple[int, ...], machine: str) -> list[str]:
@@ -47,17 +50,36 @@ def check_elf(library: lief.ELF.Binary, system: str, version: tuple[int, ...], m
     return wrong
 
 
-def check_macho(library: lief.MachO.Binary, version: tuple[int, ...], machine: str) -> list[str]:
+def is_signed(data: bytes, at: int) -> bool:
+    """Whether the signature that begins `at` bytes into a library of macOS is that of its pages."""
+    _, _, count = struct.unpack_from(">III", data, at)
+    for entry in range(count):
+        kind, offset = struct.unpack_from(">II", data, at + 12 + 8 * entry)
+        if kind != 0:  # a directory of the code
+            continue
+        first, _, _, pages, end = struct.unpack_from(">IIIII", data, at + offset + 16)
+        size, method, _, log2_page = struct.unpack_from("BBBB", data, at + offset + 36)
+        first += at + offset
+        return method == 2 and all(
+            hashlib.sha256(data[page << log2_page:min(page + 1 << log2_page, end)]).digest() == data[first + page * size:first + page * size + size]
+            for page in range(pages))
+    return False
+
+
+def check_macho(library: lief.MachO.Binary, data: bytes, version: tuple[int, ...], machine: str) -> list[str]:
     """What is wrong with a library of macOS; prints the oldest system that it is for."""
     wrong = []
+    own = [entry.name for entry in library.libraries if entry.command == lief.MachO.LoadCommand.TYPE.ID_DYLIB]
+    if own != ["@rpath/libewa.dylib"]:
+        wrong.append(f"it calls itself {', '.join(own)}")
     if library.header.cpu_type.name != {"x86_64": "X86_64", "arm64": "ARM64"}[machine]:
         wrong.append(f"it is for {library.header.cpu_type.name}")
     oldest = tuple(library.build_version.minos[:2]) if library.has_build_version else tuple(library.version_min.version[:2])
     print(f"  for macOS {'.'.join(map(str, oldest))}")
     if oldest > version:
         wrong.append(f"it is for macOS {oldest}")
-    if machine == "arm64" and not library.has_code_signature:
-        wrong.append("it is not signed, which Apple's processors ask for")
+    if machine == "arm64" and not (library.has_code_signature and is_signed(data, library.code_signature.data_offset)):
+        wrong.append("it is not signed as it is, which Apple's processors ask for")
     return wrong
 
 
@@ -92,8 +114,8 @@ def check(path: str) -> list[str]:
         wrong += check_elf(library, system, version, machine)
         shown = [symbol.name for symbol in library.exported_symbols]
     elif isinstance(library, lief.MachO.Binary) and system == "macosx":
-        wrong += check_macho(library, version, machine)
-        shown = [symbol.name[1:] for symbol in library.exported_symbols]
+        wrong += check_macho(library, data, version, machine)
+        shown = [symbol.name[1:] for symbol in library.exported_symbols if symbol.name[1:] not in LINKERS]
     elif isinstance(library, lief.PE.Binary) and system == "win":
         if library.header.machine.name != "AMD64":
             wrong.append(f"it is for {library.header.machine.name}")
@@ -101,6 +123,8 @@ def check(path: str) -> list[str]:
     else:
         return [f"{libraries[0]} is {type(library).__module__}"]
     needed = library.libraries if system != "win" else [entry.name for entry in library.imports]
+    if system == "macosx":
+        needed = [entry for entry in needed if entry.command != lief.MachO.LoadCommand.TYPE.ID_DYLIB]
     needed = [entry if isinstance(entry, str) else entry.name for entry in needed]
     print(f"  needs {', '.join(sorted(needed))}; shows {len(shown)} names")
     wrong += [f"it needs {entry}" for entry in needed if not re.fullmatch(LIBRARIES[system], entry)]

@@ -50,6 +50,10 @@ echo "Building libraries for $target"
 rm -rf "$prefix"
 mkdir -p "$prefix/include/cjson" "$prefix/lib/pkgconfig" "$prefix/objects"
 
+# A library of macOS shows all that it is linked of and that is not hidden; of Linux and Windows lists say what it shows.
+hidden=
+case $target in *-macos) hidden="-fvisibility=hidden -DWEBP_EXTERN=extern -DZSTDLIB_VISIBLE= -DZSTDERRORLIB_VISIBLE= -DLIBDEFLATEEXPORT=" ;; esac
+
 # library NAME MODULE VERSION REQUIRES FLAGS FILE...: one static library and its pkg-config file, by which who uses it gets $seen.
 seen=
 library() {
@@ -59,7 +63,7 @@ library() {
     for file in "$@"; do
         object=$prefix/objects/$name-$(echo "$file" | tr / _).o
         # shellcheck disable=SC2086
-        $launcher "$bin/$target-cc" $level -fPIC $more $flags -I"$prefix/include" -c "$file" -o "$object" 2>>"$prefix/log" ||
+        $launcher "$bin/$target-cc" $level -fPIC $hidden $more $flags -I"$prefix/include" -c "$file" -o "$object" 2>>"$prefix/log" ||
             { tail -n 10 "$prefix/log" >&2; exit 1; }
         objects="$objects $object"
     done
@@ -99,9 +103,9 @@ seen=
 if [ -n "$further" ]; then
     sources=$root/sources_further
     seen=
-    # Functions that Windows and macOS would take from their own library, which each version rounds as it likes; the toolchain names
-    # the library, so that it comes first.
-    math="acos asin atan atan2 cbrt hypot pow pow_data exp_data __math_divzero __math_divzerof __math_invalid __math_invalidf __math_invalidl
+    # Functions that Windows and macOS would take from their own library, which each version rounds as it likes, and fma(), which for
+    # Windows adds in long double and so rounds twice; the toolchain names the library, so that it comes first.
+    math="acos asin atan atan2 cbrt fma hypot pow pow_data exp_data __math_divzero __math_divzerof __math_invalid __math_invalidf __math_invalidl
         __math_oflow __math_oflowf __math_uflow __math_uflowf __math_xflow __math_xflowf"
     case $target in
     *-macos) math="$math cos exp log log10 log2 log2_data log_data sin tan __cos __rem_pio2 __rem_pio2_large __sin __tan scalbn" ;;
@@ -112,8 +116,9 @@ if [ -n "$further" ]; then
         cd "$sources"/musl-*/
         printf '#define __LITTLE_ENDIAN 1\n#define __BYTE_ORDER 1\n' >"$prefix/objects/endian.h"
         : >"$prefix/objects/features.h"
+        echo '#define a_clz_64 __builtin_clzll' >"$prefix/objects/atomic.h"
         # shellcheck disable=SC2046
-        library musl_math musl_math 1.2.3 "" "-fvisibility=hidden -Isrc/internal -Iarch/generic -I$prefix/objects -Dhidden=" \
+        library musl_math musl_math 1.2.3 "" "-fvisibility=hidden -I$prefix/objects -Isrc/internal -Iarch/generic -Dhidden=" \
             $(printf 'src/math/%s.c ' $math)
     fi
     cd "$sources"/bzip2-*/
@@ -125,7 +130,7 @@ if [ -n "$further" ]; then
     library webp libwebp 1.2.4 "" -I. src/dec/*.c src/dsp/*.c src/enc/*.c src/utils/*.c sharpyuv/*.c
     cd "$sources"/libjpeg-turbo-*/
     cmake -S . -B "$prefix/objects/jpeg" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/../cmake/toolchains/$target.cmake" -DCMAKE_BUILD_TYPE=Release \
-        -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DCMAKE_INSTALL_PREFIX="$prefix" >>"$prefix/log" 2>&1 || { tail -n 10 "$prefix/log" >&2; exit 1; }
+        ${hidden:+-DCMAKE_C_VISIBILITY_PRESET=hidden -DCMAKE_POLICY_DEFAULT_CMP0063=NEW} -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DCMAKE_INSTALL_PREFIX="$prefix" >>"$prefix/log" 2>&1 || { tail -n 10 "$prefix/log" >&2; exit 1; }
     cmake --build "$prefix/objects/jpeg" --target jpeg-static >>"$prefix/log" 2>&1 || { tail -n 10 "$prefix/log" >&2; exit 1; }
     cp jpeglib.h jmorecfg.h jerror.h "$prefix/objects/jpeg/jconfig.h" "$prefix/include"
     cp "$prefix/objects/jpeg/libjpeg.a" "$prefix/lib"

@@ -79,7 +79,8 @@ build_wheel() {
     pip wheel -q . --no-deps -w "$wheels" -C build-dir="build/wheel_$2" -C "cmake.args=-GNinja" \
         -C "cmake.define.CMAKE_TOOLCHAIN_FILE=$PWD/cmake/toolchains/$2.cmake" -C "cmake.define.CMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" \
         -C cmake.define.EWA_WITH_CURL=OFF -C cmake.define.EWA_WITH_MESHOPT=OFF -C cmake.define.EWA_WITH_DRACO=OFF \
-        -C cmake.define.EWA_WITH_DWA=OFF -C cmake.define.EWA_WITH_LZMA=OFF
+        -C cmake.define.EWA_WITH_DWA=OFF -C cmake.define.EWA_WITH_LZMA=OFF \
+        -C install.strip=false # the linker has done so; llvm-strip breaks tables and signatures of what zig has linked for macOS
     (
         cd "$wheels"
         # What is linked into it asks for its licence.

@@ -10,3 +10,6 @@ include("${CMAKE_CURRENT_LIST_DIR}/zig.cmake")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-force_load,${build}/sysroot/${triple}/lib/libmusl_math.a -s")
 set(CMAKE_SHARED_LINKER_FLAGS_INIT "${CMAKE_EXE_LINKER_FLAGS_INIT}")
 set(CMAKE_C_FLAGS_INIT "-fno-builtin-sin -fno-builtin-cos -fno-builtin-pow")
+# No path of this machine: who loads the library says where it is.
+set(CMAKE_INSTALL_NAME_DIR "@rpath")
+set(CMAKE_BUILD_WITH_INSTALL_NAME_DIR ON)
