@@ -144,8 +144,8 @@ arm64: program
 	@sh tools/sysroot.sh arm64 build/sysroot/arm64 libc6 python3
 	@sh tools/zig.sh aarch64-linux-gnu.2.28
 	@sh tools/dependencies.sh aarch64-linux-gnu.2.28
-	@$(call build_by,arm64,ewa parallel_tests)
-	@sh tools/check.sh build/arm64:parallel
+	@$(call build_by,arm64,ewa quick_tests)
+	@sh tools/check.sh build/arm64:quick
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-aarch64-static -L $(CURDIR)/build/sysroot/arm64 $(CURDIR)/build/arm64/cli/ewa
 
 # WebAssembly, exact on every host and for hosts that round a relaxed multiply-add once: the program's bytes under node, and what a
@@ -168,7 +168,8 @@ windows: program
 	@sh tools/setup.sh wine wine64
 	@sh tools/zig.sh x86_64-windows-gnu
 	@sh tools/dependencies.sh x86_64-windows-gnu
-	@$(call build_by,windows,ewa)
+	@$(call build_by,windows,ewa quick_tests)
+	@sh tools/check.sh build/windows:quick
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) sh $(CURDIR)/tools/wine.sh $(CURDIR)/build/windows/cli/ewa.exe
 	@sh tools/windows_files.sh $(CURDIR)/$(EWA) $(CURDIR)/build/windows/cli/ewa.exe
 

@@ -88,10 +88,27 @@ typedef struct check_memory {
     int64_t held_bytes, peak_bytes;
 } check_memory;
 
+/// Memory aligned as ewa_allocator asks for, and its way back.
+static inline void *check_aligned(size_t size_bytes) {
+#ifdef _WIN32
+    return _aligned_malloc(size_bytes, 64);
+#else
+    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+#endif
+}
+
+static inline void check_aligned_release(void *block) {
+#ifdef _WIN32
+    _aligned_free(block);
+#else
+    free(block);
+#endif
+}
+
 static inline void *check_allocate(void *user, size_t size_bytes) {
     check_memory *memory = user;
     if (memory->calls_left-- == 0) return NULL;
-    void *block = aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+    void *block = check_aligned(size_bytes);
     // So that a sanitizer sees what is read before it is written.
     if (block) memset(block, 0xa5, size_bytes);
     if (block) memory->held_bytes += (int64_t)size_bytes;
@@ -101,7 +118,7 @@ static inline void *check_allocate(void *user, size_t size_bytes) {
 
 static inline void check_release(void *user, void *block, size_t size_bytes) {
     ((check_memory *)user)->held_bytes -= (int64_t)size_bytes;
-    free(block);
+    check_aligned_release(block);
 }
 
 /// The allocator of ewa_context_options that takes from `memory`.

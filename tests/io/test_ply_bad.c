@@ -3,10 +3,8 @@
 //
 // Tests of the PLY reader on files that are wrong: each fails with a message that names file, place and
 // reason, whatever is cut, changed or claimed.
-#define _DEFAULT_SOURCE // mkstemps
 #include "io/ply_sample.h"
-
-#include <unistd.h>
+#include "io/scratch.h"
 
 #define FIXTURE_THREADS 1
 #include "io/fixture.h"
@@ -291,10 +289,8 @@ CASE(test_failing_allocations) {
     options.message_user = &messages;
     ewa_context *own = NULL;
     assert_int_equal(ewa_context_create(&options, &own), EWA_OK);
-    char path[] = "/tmp/ewa-test-memory-XXXXXX.ply";
-    const int descriptor = mkstemps(path, 4);
-    assert_true(descriptor >= 0);
-    close(descriptor);
+    char path[512];
+    scratch_path("memory.ply", path);
     for (int encoding = 0; encoding < 3; encoding++) {
         sample s = make_rich((ewa_ply_encoding)encoding, true);
         int failures = 0;

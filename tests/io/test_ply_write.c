@@ -29,7 +29,9 @@ static int count_files(bool remove_them) {
     for (struct dirent *entry; (entry = readdir(list));) {
         if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
         count++;
-        if (remove_them) unlinkat(dirfd(list), entry->d_name, 0);
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (remove_them) unlink(path);
     }
     closedir(list);
     return count;

@@ -111,12 +111,12 @@ static void *hold(void *user, size_t size_bytes) {
     held_memory *memory = user;
     memory->held_bytes += size_bytes;
     if (memory->held_bytes > memory->max_bytes) memory->max_bytes = memory->held_bytes;
-    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+    return check_aligned(size_bytes);
 }
 
 static void let_go(void *user, void *block, size_t size_bytes) {
     if (block) ((held_memory *)user)->held_bytes -= size_bytes;
-    free(block);
+    check_aligned_release(block);
 }
 
 /// A file that is passed through needs memory for a piece, not for its points.

@@ -99,7 +99,7 @@ TEST_WITHIN(test_codes, set_up, tear_down) {
 }
 
 TEST_WITHIN(test_tiles, set_up, tear_down) {
-    static const struct {
+    const struct {
         const char *name;
         double length; ///< 0: no name of a tile
     } names[] = {

@@ -48,7 +48,7 @@ static void make_block(int number, ewa_block *block) {
 }
 
 /// As the estimate goes through a batch.
-static void tell(const local_kernels *kernels, local_batch *batch, told *t) {
+static void measure_all(const local_kernels *kernels, local_batch *batch, told *t) {
     memset(t, 0, sizeof *t);
     local_sizes sizes;
     kernels->median(batch, t->around, t->farthest2);
@@ -91,11 +91,11 @@ TEST(test_company) {
             told all, alone;
             batch.lane_count = 0;
             assert_int_equal(kernels->collect(&block, 0xffff, values, &batch), 0);
-            tell(kernels, &batch, &all);
+            measure_all(kernels, &batch, &all);
             for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
                 batch.lane_count = 0;
                 assert_int_equal(kernels->collect(&block, 1u << lane, values, &batch), 0);
-                tell(kernels, &batch, &alone);
+                measure_all(kernels, &batch, &alone);
                 hold_lane(&all, lane, &alone);
                 ends += alone.ends & 1;
             }

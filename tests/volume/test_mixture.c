@@ -418,14 +418,14 @@ typedef struct own_thread {
 static void *give(void *user, size_t size_bytes) {
     own_thread *own = user;
     if (!pthread_equal(pthread_self(), own->caller)) atomic_fetch_add(&own->strange_count, 1);
-    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+    return check_aligned(size_bytes);
 }
 
 static void take(void *user, void *memory, size_t size_bytes) {
     own_thread *own = user;
     (void)size_bytes;
     if (!pthread_equal(pthread_self(), own->caller)) atomic_fetch_add(&own->strange_count, 1);
-    free(memory);
+    check_aligned_release(memory);
 }
 
 TEST(test_allocator) {
