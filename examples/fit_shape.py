@@ -5,7 +5,8 @@
 
     fit_shape.py TARGET OUT.png [--level 4] [--steps 240] [--side 128] [--film FOLDER]
 
-TARGET is any mesh or cloud. Pictures of it, grey under one light, are taken from twelve sides. An icosphere's corners are
+TARGET is any mesh or cloud. Pictures of it, grey under a red, a green and a blue light that go with the camera, are taken from
+twelve sides. An icosphere's corners are
 surfels whose normals are those of its triangles and whose radii are as long as its edges. They follow the derivative of the
 squared difference of the pictures, by places and by normals, which places make. Each step is smoothed over the triangles,
 so that surfels without a derivative of their own go with their neighbours; then corners spread along the surface. Pictures grow
@@ -103,8 +104,15 @@ def surfels(corners: np.ndarray, faces: np.ndarray) -> ewa.Cloud:
                      colors=np.full((len(corners), 3), 0.7, np.float32))
 
 
+def lights(camera: ewa.Camera) -> list[np.ndarray]:
+    """Red, green and blue, from the viewer's right and left above and from below: each normal has its colour."""
+    right, down, ahead = np.asarray(camera.world_to_camera)[:3, :3]
+    ways = (right - down - ahead, -right - down - ahead, down - ahead)
+    return [np.concatenate([way, color]) for way, color in zip(ways, np.eye(3))]
+
+
 def draw(cloud: ewa.Cloud, camera: ewa.Camera) -> np.ndarray:
-    return ewa.render(cloud.surfels(close_gaps=False), camera, planes="rgba", **OPTIONS).rgba
+    return ewa.render(cloud.surfels(close_gaps=False), camera, planes="rgba", lights=lights(camera), **OPTIONS).rgba
 
 
 def chamfer(a: np.ndarray, b: np.ndarray) -> float:
@@ -147,7 +155,8 @@ def run(target: ewa.Cloud, level: int, steps: int, side: int, say: Callable[[str
         for at, picture in zip(cameras, pictures):
             rest = draw(cloud, at) - picture
             loss += float((rest**2).mean()) / 12
-            found = ewa.render_backward(cloud, at, rgba=2 * rest / rest.size, by=("position", "normal"), **OPTIONS)
+            found = ewa.render_backward(cloud, at, rgba=2 * rest / rest.size, by=("position", "normal"), lights=lights(at),
+                                        **OPTIONS)
             total += found.position + by_corners(corners, faces, found.normal)
         if film and step % 4 == 0:
             shot = np.concatenate([draw(c, camera(1.5, side)) for c in (true, cloud)], axis=1)
