@@ -224,9 +224,13 @@ TEST_ON(shown_as_sets_are, 2) {
             if (n == 1) instance.coloring.tinted = true, instance.coloring.tint[1] = 0.75;
             if (n == 2) options.region_count = 1, options.regions[0] = (ewa_region){.has_box = true, .box_world = {-2, -2, 5, 0.3, 2, 30}};
             assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
-            // As it is at first, so that what changes must come to what is in memory.
+            // As it is at first and red, so that what changes must come to what is in memory.
+            const ewa_instance last = instance;
             draw(context, scene, renderer, &camera, &options, again);
+            if (n < 2) ewa_coloring_init(&instance.coloring, sizeof instance.coloring), instance.coloring.tinted = true, instance.coloring.tint[0] = 1;
             assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_OK);
+            draw(context, scene, renderer, &camera, &options, again);
+            assert_int_equal(ewa_scene_set(scene, 0, &last), EWA_OK);
             draw(context, scene, renderer, &camera, &options, streamed ? some : whole);
             if (n < 2) assert_true(decibels(again, streamed ? some : whole) < 30);
             ewa_scene_destroy(&scene);
