@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Curvatures: what kernels make of a place and its neighbours (local_curvature_body.h), averaged by how far it is to be
+// Curvatures: what kernels make of a place and its neighbours (local_curvature_body.h), averaged twice by how far it is to be
 // trusted.
 #include "estimate/curvature.h"
 #include "base/base.h"
@@ -17,10 +17,10 @@ enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
 // Curvatures times the reach of the neighbours, which are at most its sines: from here on they count less, and from there
 // on not at all. Estimated normals turn round an edge so fast, and splats that followed them would leave gaps there.
 static const double SOFT_BEND = 0.3, SHARP_BEND = 0.4;
-// Share of a place and its neighbours that must know how they bend.
-static const double AGREEING_SHARE = 0.4;
+// Share of a place and its neighbours that must know how they bend, as means of these over theirs.
+static const double AGREEING_SHARE = 0.3;
 // Neighbours that may bend to the other side, or not at all.
-static const uint32_t DISSENTING = 2;
+static const uint32_t DISSENTING = 1;
 // How often neighbours are asked, each time of one ring more; what drops out later than in round WHOLLY, counted from 0, keeps a part.
 enum { ROUNDS = 8, WHOLLY = 3 };
 
@@ -34,7 +34,8 @@ typedef struct curvature_job {
     const float *const *offsets; // of places, if these say all; else
     double (*position)[3];
     float (*fit)[2];          // signed curvature and how far it is to be trusted
-    float *mean;              // by place, over its neighbours
+    float (*smooth)[2];       // the same, means of a place and its neighbours
+    float *mean;              // by place, over smooth ones
     _Atomic uint8_t *states; // of each place: the way it bends, and the round in which it dropped out (ROUNDS: none)
     uint8_t round;
     atomic_bool any_dropped; // in this round
@@ -95,22 +96,46 @@ static void fit_places(void *data, uint32_t task, uint32_t worker) {
     }
 }
 
-/// The mean of a place and its neighbours by trust, less how far these are apart: what noise makes of single ones does
-/// not agree, nor do places beside an edge, and a contour that stays fat is better than one that is torn.
-static float average(const curvature_job *job, uint32_t place) {
+/// Sums over a place and its neighbours, by trust.
+typedef struct trusted {
+    double weight, sum, squares, count;
+} trusted;
+
+static inline trusted add_trusted(const curvature_job *job, const float (*curvature)[2], uint32_t place) {
     const uint32_t *links = job->input->links[place];
-    double value = (double)job->fit[place][0], weight = (double)job->fit[place][1], sum = value * weight,
-           squares = value * sum, count = 1;
-    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++, count++) {
-        const float *fit = job->fit[links[i]];
-        const double trust = (double)fit[1], part = (double)fit[0] * trust;
-        sum += part, squares += (double)fit[0] * part, weight += trust;
+    const double value = (double)curvature[place][0], weight = (double)curvature[place][1];
+    trusted all = {weight, value * weight, value * value * weight, 1};
+    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++) {
+        const float *other = curvature[links[i]];
+        const double trust = (double)other[1], part = (double)other[0] * trust;
+        all.sum += part, all.squares += (double)other[0] * part, all.weight += trust, all.count++;
     }
-    if (!(weight > 0)) return 0;
-    const double mean = sum / weight, variance = squares / weight - mean * mean;
-    const double size = fabs(mean) - (variance > 0 ? sqrt(variance) : 0), enough = AGREEING_SHARE * count;
+    return all;
+}
+
+/// Takes the noise of single places out of what they and their neighbours say: that of saddles, which bend little in the
+/// mean, is as large as they are.
+static void smooth_places(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) {
+        const trusted all = add_trusted(job, (const float(*)[2])job->fit, place);
+        job->smooth[place][0] = all.weight > 0 ? (float)(all.sum / all.weight) : 0;
+        job->smooth[place][1] = (float)(all.weight / all.count);
+    }
+}
+
+/// The mean of a place and its neighbours by trust, less how far these are apart: places beside an edge do not agree, nor
+/// do those of rough ground, and a contour that stays fat is better than one that is torn.
+static float average(const curvature_job *job, uint32_t place) {
+    const trusted all = add_trusted(job, (const float(*)[2])job->smooth, place);
+    if (!(all.weight > 0)) return 0;
+    const double mean = all.sum / all.weight, variance = all.squares / all.weight - mean * mean;
+    const double size = fabs(mean) - (variance > 0 ? sqrt(variance) : 0), enough = AGREEING_SHARE * all.count;
     if (!(size > 0)) return 0;
-    return (float)copysign(weight < enough ? size * weight / enough : size, mean);
+    return (float)copysign(all.weight < enough ? size * all.weight / enough : size, mean);
 }
 
 static void average_places(void *data, uint32_t task, uint32_t worker) {
@@ -199,15 +224,18 @@ ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *in
     const uint32_t tasks = (job.place_count + TASK_PLACES - 1) / TASK_PLACES;
     if (!job.offsets) job.position = ewa_allocate(context, job.place_count, sizeof *job.position);
     job.fit = ewa_allocate(context, job.place_count, sizeof *job.fit);
+    job.smooth = ewa_allocate(context, job.place_count, sizeof *job.smooth);
     job.mean = ewa_allocate(context, job.place_count, sizeof *job.mean);
     job.states = ewa_allocate(context, job.place_count, sizeof *job.states);
-    ewa_status status = (job.offsets || job.position) && job.fit && job.mean && job.states ? EWA_OK : EWA_ERROR_MEMORY;
+    ewa_status status = (job.offsets || job.position) && job.fit && job.smooth && job.mean && job.states ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK && job.position) ewa_parallel(context, copy_positions, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", fit_places, &job, tasks);
+    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", smooth_places, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", average_places, &job, tasks);
     if (status == EWA_OK) status = leave_shared(context, &job, tasks);
     ewa_release(context, job.states, job.place_count, sizeof *job.states);
     ewa_release(context, job.mean, job.place_count, sizeof *job.mean);
+    ewa_release(context, job.smooth, job.place_count, sizeof *job.smooth);
     ewa_release(context, job.fit, job.place_count, sizeof *job.fit);
     if (job.position) ewa_release(context, job.position, job.place_count, sizeof *job.position);
     return status;

@@ -91,6 +91,9 @@ static bool open_with(open_box *box, const ewa_surfels *fine, uint32_t index) {
     return fits;
 }
 
+// Curvature times standard deviation of what stands for several, at most: coarse surfels that moved farther at contours would leave gaps.
+static const double MAX_BEND = 0.07;
+
 static const open_box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, INFINITY};
 
 /// Takes packets into a window, up to one that would make the open packet too wide; returns the window, with
@@ -242,6 +245,12 @@ static void take_groups(const level_job *job, const ewa_window *window, uint32_t
     }
 }
 
+/// A curvature by which splats at contours do not leave those beside them, however large they are.
+static double limited_bend(double curvature, double sigma) {
+    const double largest = sigma > 0 ? MAX_BEND / sigma : 0;
+    return fabs(curvature) > largest ? copysign(largest, curvature) : curvature;
+}
+
 /// Makes surfels of what kernels say of groups.
 static void take_representatives(const level_job *job, const ewa_window *window, const ewa_groups *groups,
                                  const ewa_representatives *from, representative *made) {
@@ -254,7 +263,8 @@ static void take_representatives(const level_job *job, const ewa_window *window,
         made->normal = vec3_make((double)from->normal[0][i], (double)from->normal[1][i], (double)from->normal[2][i]);
         made->sigma = (double)from->sigma[i];
         for (int c = 0; c < 3; c++) made->color[c] = (double)from->color[c][i];
-        made->opacity = (double)from->opacity[i], made->curvature = (double)from->curvature[i];
+        made->opacity = (double)from->opacity[i];
+        made->curvature = limited_bend((double)from->curvature[i], made->sigma);
         made->ratio = packet->ratio[lane];
         made->billboard = fine->billboards;
         for (uint32_t m = 0; m < EWA_GROUP_SURFELS && made->billboard; m++) {

@@ -111,9 +111,7 @@ TEST_ON(test_silhouettes, 0) {
         for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
             const outline_errors found =
                 measure(context, scenes[k].name, scenes[k].shape, oblique, scenes[k].cloud);
-            // A torus bends to either side: around the circles between them curvatures do not count.
-            const bool both = scenes[k].shape == OUTLINE_TORUS;
-            assert_true(fabs(found.fat_px) < fat_px[i] + (both ? 0.02 : 0) && found.rms < rms[i] + (both ? 0.02 : 0));
+            assert_true(fabs(found.fat_px) < fat_px[i] && found.rms < rms[i]);
             assert_true(found.open < 5e-4 && found.deepest < 0.1 && found.strewn < 1e-3);
         }
     }
