@@ -29,8 +29,8 @@ static void move_leaf(const double m[16], ewa_streamed_leaf *leaf) {
 static ewa_status measure(ewa_asset_stream *stream, const ewa_gaussians *set) {
     const ewa_streamed_leaf *leaves = stream->file.leaves.data;
     const ewa_streamed_range *ranges = stream->file.ranges.data;
-    stream->apart_world = ewa_allocate_zeroed(stream->context, stream->file.range_count, sizeof *stream->apart_world);
-    if (!stream->apart_world) return EWA_ERROR_MEMORY;
+    stream->spacing_world = ewa_allocate_zeroed(stream->context, stream->file.range_count, sizeof *stream->spacing_world);
+    if (!stream->spacing_world) return EWA_ERROR_MEMORY;
     size_t at = 0;
     for (uint32_t i = 0; i < stream->file.leaf_count; i++) {
         const ewa_streamed_leaf *leaf = &leaves[i];
@@ -45,7 +45,7 @@ static ewa_status measure(ewa_asset_stream *stream, const ewa_gaussians *set) {
         const double apart2 = masses > 0 ? squares / masses : 0, range = 1 / coarsest - 1 / finest;
         for (uint32_t k = 1; k < leaf->count && range > 0; k++) {
             const double share = (1 / (double)ranges[leaf->first + k].count - 1 / finest) / range;
-            stream->apart_world[leaf->first + k] = sqrt(apart2 * fmin(fmax(share, 0), 1));
+            stream->spacing_world[leaf->first + k] = sqrt(apart2 * fmin(fmax(share, 0), 1));
         }
         stream->count += ranges[leaf->first].count;
     }
@@ -108,7 +108,7 @@ void ewa_asset_stream_free(ewa_asset_stream **given) {
     ewa_asset_stream *stream = *given;
     if (!stream) return;
     *given = NULL;
-    ewa_release(stream->context, stream->apart_world, stream->file.range_count, sizeof *stream->apart_world);
+    ewa_release(stream->context, stream->spacing_world, stream->file.range_count, sizeof *stream->spacing_world);
     ewa_streamed_free(&stream->file);
     ewa_release(stream->context, stream, 1, sizeof *stream);
 }

@@ -17,7 +17,7 @@
 static const double BOX_DEVIATIONS = 3, MARGIN_SHARE = 0.15;
 
 /// The least pixels that grow, the most that they grow to, and the steps by which they are found.
-static const double LEAST_PX = 1e-3, MOST_PX = 1e6;
+static const double MINIMUM_PX = 1e-3, MAXIMUM_PX = 1e6;
 enum { GROWTH_STEPS = 32 };
 
 /// How the Gaussians of an asset are coloured; all bytes of two are compared.
@@ -151,7 +151,7 @@ static uint32_t choose_slot(const stream_cache *cache, const leaf_view *view, do
     if (view->leaf == UINT32_MAX) return stream->file.range_count;
     const ewa_streamed_leaf *leaf = leaf_at(stream, view->leaf);
     uint32_t slot = leaf->first + leaf->count - 1;
-    while (slot > leaf->first && !(stream->apart_world[slot] * view->px_per_world <= merge_px)) slot--;
+    while (slot > leaf->first && !(stream->spacing_world[slot] * view->px_per_world <= merge_px)) slot--;
     return slot;
 }
 
@@ -197,7 +197,7 @@ static bool fits(const ewa_streams *streams, uint32_t count, double merge_px, co
 /// The pixels, no fewer than are asked for, within which what is drawn fits.
 static double settle(const ewa_streams *streams, uint32_t count, double merge_px, const ewa_lod_options *options) {
     if (fits(streams, count, merge_px, options)) return merge_px;
-    double low = fmax(merge_px, LEAST_PX), high = MOST_PX;
+    double low = fmax(merge_px, MINIMUM_PX), high = MAXIMUM_PX;
     for (int step = 0; step < GROWTH_STEPS; step++) {
         const double middle = sqrt(low * high);
         *(fits(streams, count, middle, options) ? &high : &low) = middle;
@@ -342,7 +342,7 @@ static ewa_status read_all(const ewa_scene *scene, ewa_scene_renderer *renderer,
 }
 
 /// Paints a slot, and leaves of it what regions do.
-static ewa_status dress(ewa_context *context, const ewa_scene *scene, const stream_cache *cache, streamed_slot *slot) {
+static ewa_status paint_slot(ewa_context *context, const ewa_scene *scene, const stream_cache *cache, streamed_slot *slot) {
     if (!ewa_left_part_is_of(slot->left, &scene->options)) {
         ewa_left_part_release(&slot->left);
         if (scene->options.region_count) EWA_TRY(ewa_left_part_make(context, &scene->options, slot->splats, NULL, &slot->left));
@@ -410,7 +410,7 @@ static ewa_status list_drawn(const ewa_scene *scene, ewa_scene_renderer *rendere
         for (; view < count && views[view].item == i; view++) {
             const uint32_t slot = find_slot(cache, &views[view], choose_slot(cache, &views[view], merge_px));
             if (slot == UINT32_MAX) continue;
-            EWA_TRY(dress(context, scene, cache, &cache->slots[slot]));
+            EWA_TRY(paint_slot(context, scene, cache, &cache->slots[slot]));
             cache->slots[slot].last_frame = streams->frame;
             splats[drawn] = cache->slots[slot].left ? cache->slots[slot].left->splats : cache->slots[slot].splats;
             colors[drawn++] = cache->slots[slot].colors;

@@ -13,7 +13,7 @@
 struct ewa_asset_stream {
     ewa_context *context;
     ewa_streamed file;  ///< with boxes of its leaves where the asset is in the scene
-    double *apart_world; ///< [range_count] of each range the RMS distance of the finest Gaussians from what stands for them, world units
+    double *spacing_world; ///< [range_count] of each range the RMS distance of the finest Gaussians from what stands for them, world units
     uint64_t count;     ///< of the finest
     size_t bytes_each;  ///< that a Gaussian takes in memory
 };
