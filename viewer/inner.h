@@ -333,6 +333,8 @@ bool select_unhide(viewer *v, const char *rest);
 void select_clear(viewer *v);
 /// What a hand does while something is drawn around points; false: the event is not of it.
 bool select_press(viewer *v, const viewer_event *event);
+/// Closes the polygon that is being drawn; false: there is none.
+bool select_end(viewer *v);
 bool select_move(viewer *v, const viewer_event *event);
 bool select_release(viewer *v, const viewer_event *event);
 
@@ -349,6 +351,8 @@ bool measures_command(viewer *v, const char *rest);
 bool measures_holds(const viewer *v, const char *word);
 /// Adds what was clicked to the measurement that is under way; false: there is none.
 bool measures_click(viewer *v, const viewer_event *event);
+/// Ends the measurement that is under way, where it may have any number of places; false: there is none.
+bool measures_end(viewer *v);
 /// Writes a length (`power` 1) or an area (2) with its unit and so many digits.
 void measures_write(const viewer *v, char *text, size_t text_bytes, double number, int digits, int power);
 /// Writes name and value, for labels.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Keys: each does what a row of actions.c says, or what a person has chosen for it, or flies while it is held.
+// Keys: each does what a row of actions.c says, or what a person has chosen for it, or flies while it is held. Enter first ends what is
+// being drawn.
 #include "inner.h"
 #include "navigate.h"
 
@@ -35,6 +36,7 @@ void keys_handle(viewer *v, const viewer_event *event) {
         v->fly_keys |= bit;
         return;
     }
+    if (event->key == VIEWER_KEY_ENTER && plain && (select_end(v) || measures_end(v))) return;
     const viewer_action *action;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++)
         if (actions_key(v, action).key == event->key && actions_key(v, action).modifiers == modifiers) {

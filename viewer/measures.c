@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Places after which a measurement is whole by itself; 0: a double click ends it.
+/// Places after which a measurement is whole by itself; 0: a double click or Enter ends it.
 static const uint32_t WHOLE[] = {[EWA_MEASURE_DISTANCE] = 0, [EWA_MEASURE_HEIGHT] = 2, [EWA_MEASURE_ANGLE] = 3, [EWA_MEASURE_AREA] = 0, [EWA_MEASURE_NOTE] = 1};
 
 void measures_write(const viewer *v, char *text, size_t text_bytes, double number, int digits, int power) {
@@ -99,8 +99,14 @@ bool measures_click(viewer *v, const viewer_event *event) {
     if (event->clicks >= 2 || measure->count == EWA_MEASURE_PLACES || !pick_point(v, event->x, event->y, false)) return true;
     memcpy(measure->places_world + 3 * measure->count, v->picks[0].place_world, sizeof v->picks[0].place_world);
     v->picks[0].given = false; // the place is the measurement's now
-    viewer_note(v, "measure: %u of %s", ++measure->count, WHOLE[measure->kind] ? WHOLE[measure->kind] == 2 ? "two places" : "three places" : "as many places as there are; a double click ends it");
+    viewer_note(v, "measure: %u of %s", ++measure->count, WHOLE[measure->kind] ? WHOLE[measure->kind] == 2 ? "two places" : "three places" : "as many places as there are; a double click or Enter ends it");
     if (measure->count == WHOLE[measure->kind] && finish(v) && measure->kind == EWA_MEASURE_NOTE) v->state.noted_count++;
+    return true;
+}
+
+bool measures_end(viewer *v) {
+    if (!v->measures_kind || !v->measuring.count || WHOLE[v->measuring.kind]) return false;
+    finish(v);
     return true;
 }
 
@@ -194,7 +200,7 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
         viewer_note(v, "measure: click %s", WHOLE[kind] == 1   ? "a place; the list of measures takes its text"
                                             : WHOLE[kind] == 2 ? "two places"
                                             : WHOLE[kind] == 3 ? "three places, the angle's in the middle"
-                                                               : "places; a double click ends it");
+                                                               : "places; a double click or Enter ends it");
         return true;
     }
     char word[VIEWER_TEXT_BYTES], problem[EWA_OPTION_TEXT_BYTES] = "too many places";

@@ -249,6 +249,13 @@ bool select_press(viewer *v, const viewer_event *event) {
     return true;
 }
 
+bool select_end(viewer *v) {
+    if (v->selection.tool != SELECT_POLYGON || v->selection.corner_count < 3) return false;
+    close_outline(v);
+    viewer_mark(v);
+    return true;
+}
+
 bool select_move(viewer *v, const viewer_event *event) {
     viewer_selection *s = &v->selection;
     if (!s->pressed || s->tool == SELECT_POLYGON) return false;

@@ -39,7 +39,7 @@ typedef struct ewa_gaussian_facts {
 } ewa_gaussian_facts;
 
 /// Says whether a regular file, or a folder of SOG, holds Gaussians, and in which form, by its content: EWA_GAUSSIANS_NONE for all
-/// else. Records without a head (.splat) are told by the suffix and by what the numbers mean. Errors:
+/// else, other folders too. Records without a head (.splat) are told by the suffix and by what the numbers mean. Errors:
 /// EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, ewa_gaussian_format *format);
 

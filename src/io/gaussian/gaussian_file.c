@@ -106,7 +106,9 @@ ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, ewa_gauss
     *format = EWA_GAUSSIANS_NONE;
     char inside[EWA_PATH_BYTES];
     ewa_file file;
+    ewa_platform_facts facts;
     path = file_of(context, path, inside);
+    if (ewa_platform_stat(path, &facts) && facts.folder) return EWA_OK;
     EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_gaussian_source source = {context, path, path, file.bytes, file.size_bytes};
     const ewa_gaussian_reader *reader;
