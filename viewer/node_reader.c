@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The thread that reads nodes of octrees while pictures are drawn of those that are there.
+#define _DARWIN_C_SOURCE // waits for a span, on macOS
 #include "node_reader.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
 //
 // Files of our own: of colours and transfer functions that are not saved, and texts of cameras for a moment. They go when the viewer
 // does. Each viewer holds a lock beside its files, so that those of one that was killed are known, and taken away at the next start.
+#define _DARWIN_C_SOURCE // flock() on macOS
 #include "inner.h"
 
 #include <dirent.h>
