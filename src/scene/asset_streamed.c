@@ -11,20 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Puts a leaf's box where the asset is in the scene.
-static void move_leaf(const double m[16], ewa_streamed_leaf *leaf) {
-    const ewa_streamed_leaf from = *leaf;
-    if (!isfinite(from.low_world[0])) return;
-    for (int r = 0; r < 3; r++) {
-        leaf->low_world[r] = leaf->high_world[r] = m[4 * r + 3];
-        for (int c = 0; c < 3; c++) {
-            const double a = m[4 * r + c] * from.low_world[c], b = m[4 * r + c] * from.high_world[c];
-            leaf->low_world[r] += fmin(a, b);
-            leaf->high_world[r] += fmax(a, b);
-        }
-    }
-}
-
 /// Measures the ranges of all leaves by their coarsest levels, which follow each other in `set`.
 static ewa_status measure(ewa_asset_stream *stream, const ewa_gaussians *set) {
     const ewa_streamed_leaf *leaves = stream->file.leaves.data;
@@ -97,7 +83,8 @@ ewa_status ewa_asset_stream_gaussians(const ewa_asset_job *job, const char *path
     ewa_gaussians_free(&set);
     EWA_TRY(status);
     ewa_streamed_leaf *leaves = stream->file.leaves.data;
-    for (uint32_t i = 0; i < stream->file.leaf_count && ewa_asset_is_moved(asset); i++) move_leaf(asset->to_world, &leaves[i]);
+    for (uint32_t i = 0; i < stream->file.leaf_count && ewa_asset_is_moved(asset); i++)
+        if (isfinite(leaves[i].low_world[0])) ewa_asset_move_box(asset->to_world, leaves[i].low_world, leaves[i].high_world);
     asset->count = stream->count;
     ewa_report(context, EWA_SEVERITY_INFO, "%llu Gaussians in %u leaves, of which each picture reads what it needs",
                (unsigned long long)stream->count, stream->file.leaf_count);

@@ -12,19 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Puts a box around what an affine map makes of another.
-static void move_box(const double m[16], ewa_bounds *box) {
-    const ewa_bounds from = *box;
-    for (int r = 0; r < 3; r++) {
-        box->low_world[r] = box->high_world[r] = m[4 * r + 3];
-        for (int c = 0; c < 3; c++) {
-            const double a = m[4 * r + c] * from.low_world[c], b = m[4 * r + c] * from.high_world[c];
-            box->low_world[r] += fmin(a, b);
-            box->high_world[r] += fmax(a, b);
-        }
-    }
-}
-
 static bool is_box(const ewa_bounds *box) {
     bool fine = true;
     for (int c = 0; c < 3; c++)
@@ -76,7 +63,7 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
             "them; ewa_lod_build() makes better levels");
     EWA_TRY(make_outline(asset));
     asset->bounds = info.bounds;
-    if (ewa_asset_is_moved(asset)) move_box(asset->to_world, &asset->bounds);
+    if (ewa_asset_is_moved(asset)) ewa_asset_move_box(asset->to_world, asset->bounds.low_world, asset->bounds.high_world);
     // Of a file whose header says no box, that of the sample.
     if (!is_box(&asset->bounds)) EWA_TRY(ewa_cloud_measure(asset->outline, &asset->bounds));
     asset->bounds.finite_count = info.point_count;
@@ -134,7 +121,7 @@ ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double low_world[
         memcpy(map.m, asset->to_world, sizeof map.m);
         EWA_TRY(ewa_mat4_invert(&map, &map));
         memcpy(back, map.m, sizeof back);
-        move_box(back, &box);
+        ewa_asset_move_box(back, box.low_world, box.high_world);
     }
     EWA_TRY(ewa_lod_read(asset->lod, box.low_world, box.high_world, 0, cloud));
     ewa_status status = ewa_cloud_filter(ewa_cloud_context(*cloud), &asset->filter, cloud);
