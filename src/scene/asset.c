@@ -423,16 +423,3 @@ ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source
     *made = asset;
     return status;
 }
-
-void ewa_asset_move_box(const double to_world[16], double low_world[3], double high_world[3]) {
-    double low[3], high[3];
-    memcpy(low, low_world, sizeof low), memcpy(high, high_world, sizeof high);
-    for (int r = 0; r < 3; r++) {
-        low_world[r] = high_world[r] = to_world[4 * r + 3];
-        for (int c = 0; c < 3; c++) {
-            const double a = to_world[4 * r + c] * low[c], b = to_world[4 * r + c] * high[c];
-            low_world[r] += fmin(a, b);
-            high_world[r] += fmax(a, b);
-        }
-    }
-}

@@ -33,9 +33,6 @@ ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud);
 /// Makes voxels of a volume, whose axes may be changed, by a transfer function, or, where that is NULL, by the options.
 ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *given, ewa_volume *volume);
 
-/// Puts a finite box around what an affine map makes of it.
-void ewa_asset_move_box(const double to_world[16], double low_world[3], double high_world[3]);
-
 /// Puts the map of an asset before the one of the voxels' indices.
 void ewa_asset_move_volume(const double to_world[16], ewa_volume *volume);
 

@@ -5,6 +5,7 @@
 // as what it was made of. Between the levels of a leaf that falls as surfaces have it, with the root of how many there are.
 #include "base/base.h"
 #include "framing/conventions.h"
+#include "math/box.h"
 #include "scene/streamed.h"
 #include "volume/splats.h"
 
@@ -84,7 +85,7 @@ ewa_status ewa_asset_stream_gaussians(const ewa_asset_job *job, const char *path
     EWA_TRY(status);
     ewa_streamed_leaf *leaves = stream->file.leaves.data;
     for (uint32_t i = 0; i < stream->file.leaf_count && ewa_asset_is_moved(asset); i++)
-        if (isfinite(leaves[i].low_world[0])) ewa_asset_move_box(asset->to_world, leaves[i].low_world, leaves[i].high_world);
+        if (isfinite(leaves[i].low_world[0])) ewa_box_transform(asset->to_world, leaves[i].low_world, leaves[i].high_world);
     asset->count = stream->count;
     ewa_report(context, EWA_SEVERITY_INFO, "%llu Gaussians in %u leaves, of which each picture reads what it needs",
                (unsigned long long)stream->count, stream->file.leaf_count);

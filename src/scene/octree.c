@@ -7,6 +7,7 @@
 #include "cloud/cloud.h"
 #include "ewa/homogeneous.h"
 #include "ewa/prepare.h"
+#include "math/box.h"
 #include "scene/asset.h"
 
 #include <math.h>
@@ -63,7 +64,7 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
             "them; ewa_lod_build() makes better levels");
     EWA_TRY(make_outline(asset));
     asset->bounds = info.bounds;
-    if (ewa_asset_is_moved(asset)) ewa_asset_move_box(asset->to_world, asset->bounds.low_world, asset->bounds.high_world);
+    if (ewa_asset_is_moved(asset)) ewa_box_transform(asset->to_world, asset->bounds.low_world, asset->bounds.high_world);
     // Of a file whose header says no box, that of the sample.
     if (!is_box(&asset->bounds)) EWA_TRY(ewa_cloud_measure(asset->outline, &asset->bounds));
     asset->bounds.finite_count = info.point_count;
@@ -121,7 +122,7 @@ ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double low_world[
         memcpy(map.m, asset->to_world, sizeof map.m);
         EWA_TRY(ewa_mat4_invert(&map, &map));
         memcpy(back, map.m, sizeof back);
-        ewa_asset_move_box(back, box.low_world, box.high_world);
+        ewa_box_transform(back, box.low_world, box.high_world);
     }
     EWA_TRY(ewa_lod_read(asset->lod, box.low_world, box.high_world, 0, cloud));
     ewa_status status = ewa_cloud_filter(ewa_cloud_context(*cloud), &asset->filter, cloud);
