@@ -580,8 +580,10 @@ const char *viewer_attribute_at(const viewer *v, size_t index, uint32_t wanted,
     ewa_lod_info octree = {.prototype = NULL};
     if (info.lod) ewa_lod_describe(info.lod, &octree);
     const ewa_cloud *cloud = info.cloud ? info.cloud : octree.prototype;
-    static const char *const of_gaussians[] = {"opacity", "size", "x", "y", "z"};
-    if (info.kind == EWA_ASSET_GAUSSIANS && info.splats && wanted < sizeof of_gaussians / sizeof *of_gaussians) {
+    static const char *const of_gaussians[] = {"opacity", "size", "x", "y", "z", "classification"};
+    ewa_splats_info splats = {.has_classes = false};
+    ewa_splats_describe(info.splats, &splats);
+    if (info.kind == EWA_ASSET_GAUSSIANS && info.splats && wanted + !splats.has_classes < sizeof of_gaussians / sizeof *of_gaussians) {
         snprintf(name, EWA_NAME_BYTES + 4, "%s", of_gaussians[wanted]);
         return name;
     }

@@ -24,6 +24,7 @@ static const char NUMBER[] = "gaussian";
 /// Names of what Gaussians are chosen by.
 #define OPACITY "opacity"
 #define SIZE "size"
+#define CLASSES "classification"
 
 /// Centres as points, with what Gaussians are chosen by; borrows the centres. The caller destroys it.
 static ewa_status make_points(const ewa_gaussians *set, ewa_cloud **points) {
@@ -32,6 +33,7 @@ static ewa_status make_points(const ewa_gaussians *set, ewa_cloud **points) {
     if (status == EWA_OK) status = ewa_cloud_borrow(*points, "position", EWA_F32, 3, set->centers, 0);
     if (status == EWA_OK) status = ewa_cloud_add(*points, OPACITY, EWA_F32, 1, &opacities);
     if (status == EWA_OK) status = ewa_cloud_add(*points, SIZE, EWA_F32, 1, &sizes);
+    if (status == EWA_OK && set->classes) status = ewa_cloud_borrow(*points, CLASSES, EWA_U16, 1, set->classes, 0);
     if (status == EWA_OK) status = ewa_cloud_add(*points, NUMBER, EWA_U32, 1, &numbers);
     if (status != EWA_OK) return status;
     ewa_cloud_set_origin(*points, set->origin);

@@ -33,6 +33,7 @@ typedef struct ewa_gaussians {
     float *rotations; ///< 4 per Gaussian, unit quaternion w x y z, from the axes to the world
     float *opacities; ///< 1 per Gaussian, [0, 1]
     float *harmonics; ///< (L + 1)^2 coefficients of red green blue per Gaussian; order and signs as in 3DGS
+    uint16_t *classes; ///< 1 per Gaussian, the codes of "classification" of clouds; NULL: they have none
 } ewa_gaussians;
 
 /// Makes a set with everything zero; the caller frees it with ewa_gaussians_free(). Errors (set zeroed):
@@ -40,6 +41,9 @@ typedef struct ewa_gaussians {
 /// EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_gaussians_create(ewa_context *context, uint32_t count, uint32_t sh_degree,
                                         ewa_gaussians *gaussians);
+
+/// Gives each Gaussian of a set the class 0, unless they have classes. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_add_classes(ewa_gaussians *gaussians);
 
 /// Frees the streams and zeroes the struct; accepts NULL and a zeroed struct.
 EWA_API void ewa_gaussians_free(ewa_gaussians *gaussians);
@@ -60,7 +64,7 @@ EWA_API ewa_status ewa_gaussians_keep(const ewa_gaussians *gaussians, const uint
 /// Makes surfels of a set, for which 2D Gaussians are meant: "position", float, with the set's origin,
 /// "tangent_u" and "tangent_v" along the two longest axes, one standard deviation long, "normal" along the
 /// shortest, "color" in linear light, that of the constant harmonic, clamped to [0, 1], with the opacity as
-/// alpha, and as "opacity"; "size", the longest standard deviation. The caller owns `*cloud`, which is NULL after a
+/// alpha, and as "opacity"; "size", the longest standard deviation; "classification" of those that have classes. The caller owns `*cloud`, which is NULL after a
 /// failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cloud);
 

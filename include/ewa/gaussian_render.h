@@ -34,6 +34,7 @@ typedef struct ewa_splats_info {
     uint32_t sh_degree;
     bool antialiased; ///< as the set was
     bool has_levels;  ///< among which ewa_gaussian_options.merge_px chooses
+    bool has_classes; ///< by which they can be coloured, "classification"
     size_t resident_bytes;
     ewa_bounds bounds; ///< of all centres
     /// A box that far floaters do not widen, for framing: of the middle 96 % of the opacities along

@@ -1006,6 +1006,7 @@ class ewa_gaussians(c.Structure):
     rotations: int | None
     opacities: int | None
     harmonics: int | None
+    classes: int | None
     _fields_ = [
         ("context", c.c_void_p),
         ("count", c.c_uint32),
@@ -1018,6 +1019,7 @@ class ewa_gaussians(c.Structure):
         ("rotations", c.c_void_p),
         ("opacities", c.c_void_p),
         ("harmonics", c.c_void_p),
+        ("classes", c.c_void_p),
     ]
 
 
@@ -1128,6 +1130,7 @@ class ewa_splats_info(c.Structure):
     sh_degree: int
     antialiased: bool
     has_levels: bool
+    has_classes: bool
     resident_bytes: int
     bounds: ewa_bounds
     core: ewa_bounds
@@ -1137,6 +1140,7 @@ class ewa_splats_info(c.Structure):
         ("sh_degree", c.c_uint32),
         ("antialiased", c.c_bool),
         ("has_levels", c.c_bool),
+        ("has_classes", c.c_bool),
         ("resident_bytes", c.c_size_t),
         ("bounds", ewa_bounds),
         ("core", ewa_bounds),
@@ -2969,6 +2973,7 @@ class Functions:
         self.ewa_furniture_draw: Callable[..., int] = bind("ewa_furniture_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_furniture_options), c.POINTER(ewa_canvas))
         self.ewa_furniture_options_init: Callable[..., None] = bind("ewa_furniture_options_init", None, c.POINTER(ewa_furniture_options), c.c_size_t)
         self.ewa_text_width_px: Callable[..., float] = bind("ewa_text_width_px", c.c_double, c.c_char_p, c.c_double)
+        self.ewa_gaussians_add_classes: Callable[..., int] = bind("ewa_gaussians_add_classes", c.c_int, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_create: Callable[..., int] = bind("ewa_gaussians_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_free: Callable[..., None] = bind("ewa_gaussians_free", None, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_keep: Callable[..., int] = bind("ewa_gaussians_keep", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p, c.POINTER(ewa_gaussians))

@@ -51,6 +51,8 @@ class Gaussians(Held):
         float64, world units. Default 0.
     antialiased : bool, optional
         Trained with a pixel filter that keeps what a Gaussian adds (Mip-Splatting).
+    classes : array_like, shape (n,), optional
+        uint16, codes of the attribute ``classification``. Default: they have none.
 
     Raises
     ------
@@ -64,13 +66,15 @@ class Gaussians(Held):
         return {"gaussians": self, "up_world": UPS[self._up]}
 
     def __init__(self, centers: Any, scales: Any, rotations: Any, opacities: Any, harmonics: Any, *,
-                 origin: Any = None, antialiased: bool = False, context: Context | None = None) -> None:
+                 origin: Any = None, antialiased: bool = False, classes: Any = None, context: Context | None = None) -> None:
         core = core_of(context)
         given = {"centers": as_contiguous(centers, np.float32, (None, 3), "centers"),
                  "scales": as_contiguous(scales, np.float32, (None, 3), "scales"),
                  "rotations": as_contiguous(rotations, np.float32, (None, 4), "rotations"),
                  "opacities": as_contiguous(opacities, np.float32, (None,), "opacities"),
                  "harmonics": as_contiguous(harmonics, np.float32, (None, None, 3), "harmonics")}
+        if classes is not None:
+            given["classes"] = as_contiguous(classes, np.uint16, (None,), "classes")
         count = len(given["centers"])
         for name, array in given.items():
             if len(array) != count:
@@ -164,6 +168,13 @@ class Gaussians(Held):
         """float32, shape (n, (sh_degree + 1)**2, 3), read-only."""
         return self._stream("harmonics", ((self.sh_degree + 1) ** 2, 3))
 
+    @property
+    def classes(self) -> Array | None:
+        """Codes of the attribute ``classification``; uint16, shape (n,), read-only; None: they have none."""
+        if not self._struct.classes:
+            return None
+        return export(self._h, self._struct.classes, (len(self),), np.dtype(np.uint16))
+
     @keywords("ewa_gaussians_save_options")
     def save(self, path: PathLike, **options: Unpack[GaussiansSaveOptions]) -> None:
         """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat, .spz, .glb, .sog, meta.json with its pictures beside it, or lod-meta.json with levels.
@@ -187,7 +198,7 @@ class Gaussians(Held):
 
     def __reduce__(self) -> Any:
         return _restore, (self.centers, self.scales, self.rotations, self.opacities, self.harmonics, self.origin,
-                          self.antialiased, self.flat, self._up)
+                          self.antialiased, self.flat, self._up, self.classes)
 
     def __repr__(self) -> str:
         if self._handle is None:
@@ -196,9 +207,9 @@ class Gaussians(Held):
 
 
 def _restore(centers: Array, scales: Array, rotations: Array, opacities: Array, harmonics: Array, origin: Array,
-             antialiased: bool, flat: bool, up: str) -> Gaussians:
+             antialiased: bool, flat: bool, up: str, classes: Array | None) -> Gaussians:
     """The Gaussians of a pickle, in the default context."""
-    made = Gaussians(centers, scales, rotations, opacities, harmonics, origin=origin, antialiased=antialiased)
+    made = Gaussians(centers, scales, rotations, opacities, harmonics, origin=origin, antialiased=antialiased, classes=classes)
     made._struct.flat, made._up = flat, up
     return made
 

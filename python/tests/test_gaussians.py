@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import gc
 import json
+import pickle
 import struct
 import sys
 import zipfile
@@ -51,6 +52,22 @@ class Sets(Case):
         surfels = again.to_cloud()
         self.assertEqual(len(surfels), 50)
         self.assertIn("tangent_u", surfels)
+
+    def test_classes(self) -> None:
+        self.assertIsNone(ewa.Gaussians(**streams()).classes)
+        classes = (np.arange(50) % 2 * 600 + 2).astype(np.uint16)
+        given = ewa.Gaussians(**streams(), classes=classes)
+        self.assertTrue(np.shares_memory(given.classes, classes))
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(given)).classes, classes)
+        given.save(self.path("classes.ply"))
+        again = ewa.read_gaussians(self.path("classes.ply"))
+        np.testing.assert_array_equal(again.classes, classes)
+        np.testing.assert_array_equal(again.to_cloud()["classification"], classes)
+        scene = ewa.Scene()
+        scene.add(again, color_by="classification")
+        scene.render(size=(32, 32))
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Gaussians(**streams(), classes=classes[:49])
 
     def test_files_are_what_others_take(self) -> None:
         given = streams(degree=3)

@@ -42,6 +42,7 @@ ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cl
     *cloud = NULL;
     ewa_cloud *made = NULL;
     surfel_streams to = {.tangent_u = NULL};
+    void *classes = NULL;
     ewa_status status = ewa_cloud_create(gaussians->context, gaussians->count, &made);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_POSITION, EWA_F32, 3, (void **)&to.position);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, (void **)&to.normal);
@@ -50,11 +51,13 @@ ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cl
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_TANGENT_V, EWA_F32, 3, (void **)&to.tangent_v);
     if (status == EWA_OK) status = ewa_cloud_add(made, "opacity", EWA_F32, 1, (void **)&to.opacity);
     if (status == EWA_OK) status = ewa_cloud_add(made, "size", EWA_F32, 1, (void **)&to.size);
+    if (status == EWA_OK && gaussians->classes) status = ewa_cloud_add(made, "classification", EWA_U16, 1, &classes);
     if (status != EWA_OK) {
         ewa_cloud_destroy(&made);
         return status;
     }
     for (size_t i = 0; i < gaussians->count; i++) make_surfel(gaussians, i, &to);
+    if (classes) memcpy(classes, gaussians->classes, gaussians->count * sizeof *gaussians->classes);
     ewa_cloud_set_origin(made, gaussians->origin);
     *cloud = made;
     return EWA_OK;

@@ -31,6 +31,20 @@ void ewa_gaussian_weigh(const ewa_gaussians *set, size_t i, ewa_gaussian_mass *m
     }
 }
 
+/// The class of most mass, of several the first among the members.
+static uint16_t heaviest_class(const ewa_gaussians *set, const uint32_t *members, const ewa_gaussian_mass *masses, uint32_t count) {
+    uint16_t heaviest = set->classes[members[0]];
+    double most = -1;
+    for (uint32_t n = 0; n < count; n++) {
+        const uint16_t own = set->classes[members[n]];
+        if (n && (own == heaviest || own == set->classes[members[n - 1]])) continue; // told already
+        double mass = 0;
+        for (uint32_t k = 0; k < count; k++) mass += set->classes[members[k]] == own ? masses[k].mass : 0;
+        if (mass > most) most = mass, heaviest = own;
+    }
+    return heaviest;
+}
+
 double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, const ewa_gaussian_mass *masses, uint32_t count,
                            ewa_gaussians *merged, size_t to) {
     enum { NUMBERS = 3 * (EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) };
@@ -63,6 +77,7 @@ double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, co
         scales[k] = sqrtf(scales[k]); // variances
     }
     for (size_t k = 0; k < numbers; k++) merged->harmonics[numbers * to + k] = (float)(harmonics[k] * share);
+    if (merged->classes) merged->classes[to] = heaviest_class(set, members, masses, count);
     const double area = mean_area(scales);
     merged->opacities[to] = area > 0 ? (float)fmin(mass / area, -expm1(-depth / area)) : 0;
     return apart2;

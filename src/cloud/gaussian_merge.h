@@ -25,7 +25,8 @@ typedef struct ewa_gaussian_mass {
 void ewa_gaussian_weigh(const ewa_gaussians *set, size_t i, ewa_gaussian_mass *mass);
 
 /// Fills number `to` of `merged`, of the degree and the origin of `set`, with one Gaussian for some of a set, of which none is the
-/// same twice, and whose masses are given in their order: their mean, covariance and harmonics, where each counts by its opacity times its mean area as seen from all sides.
+/// same twice, and whose masses are given in their order: their mean, covariance and harmonics, where each counts by its opacity times its mean area as seen from all sides;
+/// where `merged` has classes, that of most of it.
 /// Its opacity times its area is at most the sum of theirs, and what it lets through at most what they would in its area, one behind
 /// the other. Returns the mean square of the distances of the members' centres from its own. Any thread.
 double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, const ewa_gaussian_mass *masses, uint32_t count,

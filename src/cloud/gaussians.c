@@ -38,6 +38,13 @@ ewa_status ewa_gaussians_create(ewa_context *context, uint32_t count, uint32_t s
     return EWA_ERROR_MEMORY;
 }
 
+ewa_status ewa_gaussians_add_classes(ewa_gaussians *gaussians) {
+    if (!gaussians || !gaussians->context) return EWA_ERROR_ARGUMENT;
+    if (gaussians->classes) return EWA_OK;
+    gaussians->classes = ewa_allocate_zeroed(gaussians->context, gaussians->count, sizeof *gaussians->classes);
+    return gaussians->classes ? EWA_OK : EWA_ERROR_MEMORY;
+}
+
 void ewa_gaussians_free(ewa_gaussians *gaussians) {
     if (!gaussians || !gaussians->context) return;
     ewa_context *context = gaussians->context;
@@ -47,6 +54,7 @@ void ewa_gaussians_free(ewa_gaussians *gaussians) {
     ewa_release(context, gaussians->rotations, count, 4 * sizeof(float));
     ewa_release(context, gaussians->opacities, count, sizeof(float));
     ewa_release(context, gaussians->harmonics, count, harmonic_count(gaussians->sh_degree) * sizeof(float));
+    ewa_release(context, gaussians->classes, count, sizeof *gaussians->classes);
     *gaussians = (ewa_gaussians){0};
 }
 
@@ -59,6 +67,11 @@ ewa_status ewa_gaussians_keep(const ewa_gaussians *from, const uint8_t *marks, e
     EWA_TRY(ewa_gaussians_create(from->context, count, from->sh_degree, kept));
     kept->flat = from->flat, kept->antialiased = from->antialiased;
     memcpy(kept->origin, from->origin, sizeof kept->origin);
+    const ewa_status status = from->classes ? ewa_gaussians_add_classes(kept) : EWA_OK;
+    if (status != EWA_OK) {
+        ewa_gaussians_free(kept);
+        return status;
+    }
     const size_t harmonics = harmonic_count(from->sh_degree);
     size_t to = 0;
     for (size_t i = 0; i < from->count; i++) {
@@ -68,6 +81,7 @@ ewa_status ewa_gaussians_keep(const ewa_gaussians *from, const uint8_t *marks, e
         memcpy(kept->rotations + 4 * to, from->rotations + 4 * i, 4 * sizeof(float));
         kept->opacities[to] = from->opacities[i];
         memcpy(kept->harmonics + harmonics * to, from->harmonics + harmonics * i, harmonics * sizeof(float));
+        if (from->classes) kept->classes[to] = from->classes[i];
         to++;
     }
     return EWA_OK;

@@ -24,6 +24,11 @@ ewa_status ewa_splats_to_cloud(const ewa_splats *splats, bool levels, ewa_cloud 
     ewa_gaussians set;
     *cloud = NULL;
     EWA_TRY(ewa_gaussians_create(splats->context, (uint32_t)count, 0, &set));
+    ewa_status status = splats->classes ? ewa_gaussians_add_classes(&set) : EWA_OK;
+    if (status != EWA_OK) {
+        ewa_gaussians_free(&set);
+        return status;
+    }
     const double unit = splats->unit_world;
     memcpy(set.origin, splats->origin_world, sizeof set.origin);
     for (size_t i = 0; i < count; i++) {
@@ -36,8 +41,9 @@ ewa_status ewa_splats_to_cloud(const ewa_splats *splats, bool levels, ewa_cloud 
         }
         for (size_t k = 0; k < 4; k++) set.rotations[4 * i + k] = (*from)[EWA_SPLAT_ROTATION + k][lane];
         set.opacities[i] = (*from)[EWA_SPLAT_OPACITY][lane];
+        if (set.classes) set.classes[i] = splats->classes[first + i / LANES][lane];
     }
-    const ewa_status status = ewa_gaussians_to_cloud(&set, cloud);
+    status = ewa_gaussians_to_cloud(&set, cloud);
     ewa_gaussians_free(&set);
     return status;
 }

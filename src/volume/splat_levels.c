@@ -78,8 +78,10 @@ ewa_status ewa_splats_make_levels(ewa_splats *splats, const ewa_gaussians *set, 
     const uint32_t workers = ewa_context_worker_count(context);
     level_job job = {splats, set, order, ewa_allocate_zeroed(context, workers, sizeof(level_scratch))};
     ewa_status status = job.scratch ? EWA_OK : EWA_ERROR_MEMORY;
-    for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
+    for (uint32_t w = 0; w < workers && status == EWA_OK; w++) {
         status = ewa_gaussians_create(context, MAX_MERGED, set->sh_degree, &job.scratch[w].merged);
+        if (status == EWA_OK && set->classes) status = ewa_gaussians_add_classes(&job.scratch[w].merged);
+    }
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "levels", make_part, &job, splats->part_count);
     for (uint32_t w = 0; w < workers && job.scratch; w++) ewa_gaussians_free(&job.scratch[w].merged);
     ewa_release(context, job.scratch, workers, sizeof(level_scratch));

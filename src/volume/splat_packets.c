@@ -31,5 +31,6 @@ void ewa_splats_set(ewa_splats *splats, const ewa_gaussians *set, size_t number,
     }
     for (int i = 0; i < 4; i++) (*to)[EWA_SPLAT_ROTATION + i][lane] = set->rotations[4 * number + (size_t)i];
     (*to)[EWA_SPLAT_OPACITY][lane] = set->opacities[number] < 1 ? set->opacities[number] : 1;
+    if (splats->classes) splats->classes[packet][lane] = set->classes[number];
     set_harmonics(splats, set->harmonics + 3 * (size_t)(set->sh_degree + 1) * (set->sh_degree + 1) * number, packet, lane);
 }

@@ -53,7 +53,7 @@ static int compare_tied(const void *a, const void *b) {
     for (int p = 0; p < 5; p++)
         for (size_t i = 0; i < x.counts[p]; i++)
             if (x.parts[p][i] != y.parts[p][i]) return x.parts[p][i] < y.parts[p][i] ? -1 : 1;
-    return 0;
+    return s->set->classes ? (int)s->set->classes[s->number] - (int)t->set->classes[t->number] : 0;
 }
 
 static ewa_status order_ties(const ewa_gaussians *set, const uint16_t *split_level, uint32_t count,
@@ -181,7 +181,8 @@ static ewa_status fill(ewa_splats *splats, const ewa_gaussians *set, const uint3
     splats->packets = ewa_allocate_zeroed(context, all, sizeof *splats->packets);
     splats->harmonics = ewa_allocate_zeroed(context, all * splats->harmonic_count, sizeof *splats->harmonics);
     splats->parts = ewa_allocate_zeroed(context, splats->part_count, sizeof *splats->parts);
-    if (!splats->packets || !splats->harmonics || !splats->parts) return EWA_ERROR_MEMORY;
+    if (set->classes) splats->classes = ewa_allocate_zeroed(context, all, sizeof *splats->classes);
+    if (!splats->packets || !splats->harmonics || !splats->parts || (set->classes && !splats->classes)) return EWA_ERROR_MEMORY;
     splats->unit_world = choose_unit(set, order, splats->info.splat_count);
     memcpy(splats->origin_world, set->origin, sizeof splats->origin_world);
     build_job job = {set, order, splats};
@@ -216,9 +217,11 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, bool levels, ewa_sp
         if (levels && made->info.splat_count >= EWA_SPLAT_LEVELS_FROM && !made->flat)
             made->part_count = (made->packet_count - 1) / EWA_SPLAT_PART_PACKETS + 1;
         made->info.has_levels = made->part_count > 0;
+        made->info.has_classes = gaussians->classes;
         made->info.resident_bytes =
             sizeof *made + made->part_count * sizeof *made->parts +
-            ewa_splats_all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
+            ewa_splats_all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics +
+                                         (gaussians->classes ? sizeof *made->classes : 0));
         status = fill(made, gaussians, order);
     }
     ewa_release(context, order, count, sizeof *order);
@@ -239,6 +242,7 @@ void ewa_splats_destroy(ewa_splats **splats) {
         ewa_release(old->context, old->packets, all, sizeof *old->packets);
         ewa_release(old->context, old->harmonics, all * old->harmonic_count, sizeof *old->harmonics);
         ewa_release(old->context, old->parts, old->part_count, sizeof *old->parts);
+        ewa_release(old->context, old->classes, all, sizeof *old->classes);
     }
     ewa_release(old->context, old, 1, sizeof *old);
     *splats = NULL;

@@ -60,6 +60,37 @@ TEST(columns) {
     ewa_context_destroy(&context);
 }
 
+/// Classes, by whatever name and number; what is none is 0, and said.
+TEST(classes) {
+    static const struct {
+        const char *property, *first, *second;
+        int classes[2]; ///< first -1: none
+        const char *said;
+    } cases[] = {
+        {"ushort classification", "6", "700", {6, 700}, NULL},
+        {"float scalar_Classification", "2", "65535", {2, 65535}, NULL},
+        {"int label", "-1", "3", {0, 3}, "1 of 2 classes"},
+        {"double Class", "2.5", "1e9", {0, 0}, "2 of 2 classes"},
+        {"float classes", "2", "3", {-1, -1}, NULL},
+        {"list uchar int label", "1 4", "0", {-1, -1}, NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[2048];
+        snprintf(text, sizeof text, "%selement vertex 2\n%sproperty %s\nend_header\n1 2 3 0 0 0 0 -1 -2 -3 1 0 0 0 %s\n4 5 6 0 0 0 0 -1 -2 -3 1 0 0 0 %s\n",
+                 head, plain, cases[i].property, cases[i].first, cases[i].second);
+        check_log log;
+        ewa_context *context;
+        ewa_gaussians set;
+        assert_int_equal(load(text, strlen(text), &set, NULL, &log, &context), EWA_OK);
+        assert_true((set.classes != NULL) == (cases[i].classes[0] >= 0));
+        for (int k = 0; k < 2 && set.classes; k++) assert_int_equal(set.classes[k], cases[i].classes[k]);
+        assert_int_equal(log.count, cases[i].said != NULL);
+        if (cases[i].said) assert_non_null(strstr(log.text, cases[i].said));
+        ewa_gaussians_free(&set);
+        ewa_context_destroy(&context);
+    }
+}
+
 /// What trainers write about their scenes.
 TEST(comments) {
     static const struct {

@@ -248,6 +248,39 @@ TEST(losses) {
     ewa_context_destroy(&context);
 }
 
+/// PLY keeps classes, with another up too; of parts each Gaussian keeps its own; other forms say that they have no room.
+TEST(classes) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set, read, kept;
+    make_set(context, 0, &set);
+    assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
+    assert_int_equal(set.classes[0], 0);
+    for (int i = 0; i < SAMPLE_COUNT; i++) set.classes[i] = (uint16_t)(300 * i + 2);
+    assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK); // as they are
+    assert_int_equal(set.classes[1], 302);
+    char path[512];
+    WITH_DEFAULTS(ewa_gaussians_save_options, options);
+    for (int n = 0; n < 2; n++) {
+        options.up_world[2] = n;
+        assert_int_equal(ewa_gaussians_save(&set, scratch_path("classes.ply", path), &options), EWA_OK);
+        assert_int_equal(ewa_gaussians_load(context, path, &read, NULL), EWA_OK);
+        assert_memory_equal(read.classes, set.classes, SAMPLE_COUNT * sizeof *set.classes);
+        assert_int_equal(ewa_gaussians_keep(&read, (const uint8_t[]){0, 1, 1}, &kept), EWA_OK);
+        assert_true(kept.count == 2 && kept.classes[0] == 302 && kept.classes[1] == 602);
+        ewa_gaussians_free(&kept);
+        ewa_gaussians_free(&read);
+    }
+    assert_int_equal(log.count, 0);
+    pass(context, &set, "classes.spz", 4, 0, &read, NULL);
+    assert_null(read.classes);
+    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(log.text, "SPZ has no room for classes"));
+    ewa_gaussians_free(&read);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
 TEST(refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);

@@ -292,8 +292,10 @@ TEST_ON(gaussians_by_numbers, 2) {
         set.opacities[i] = (float)check_uniform(&random, 0.2, 0.9);
     }
     set.opacities[0] = 0.125f, set.opacities[1] = 0.9375f;
-    static const char *const words[] = {"opacity", "size", "z"};
-    for (int n = 0; n < 4; n++) {
+    assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
+    for (int i = 0; i < COUNT; i++) set.classes[i] = (uint16_t)(i % 3 ? 6 : 900);
+    static const char *const words[] = {"opacity", "size", "z", NULL, "classification"};
+    for (int n = 0; n < 5; n++) {
         WITH_DEFAULTS(ewa_coloring, coloring);
         double low = INFINITY, high = -INFINITY, numbers[COUNT];
         for (size_t i = 0; i < COUNT; i++) {
@@ -312,10 +314,15 @@ TEST_ON(gaussians_by_numbers, 2) {
             if (n < 3) ewa_colormap_color(EWA_COLORMAP_VIRIDIS, (numbers[i] - low) / (high - low), srgb);
             for (size_t k = 0; k < 3; k++) same_colors.harmonics[3 * i + k] = (float)(((double)srgb[k] / 255 - 0.5) / 0.28209479177387814);
         }
+        for (size_t i = 0; i < COUNT && n == 4; i++) {
+            uint8_t srgb[3];
+            ewa_class_color(set.classes[i], srgb);
+            for (size_t k = 0; k < 3; k++) same_colors.harmonics[3 * i + k] = (float)(((double)srgb[k] / 255 - 0.5) / 0.28209479177387814);
+        }
         double range[2];
-        if (n < 3) strcpy(coloring.attribute, words[n]);
+        if (n != 3) strcpy(coloring.attribute, words[n]);
         if (n == 3) coloring.tinted = true, coloring.tint[0] = 0.2, coloring.tint[1] = 0.4, coloring.tint[2] = 1;
-        draw_gaussians(&set, &coloring, colored, n < 3 ? range : NULL);
+        draw_gaussians(&set, &coloring, colored, n != 3 ? range : NULL);
         draw_gaussians(&same_colors, NULL, plain, NULL);
         size_t apart = 0, seen = 0;
         for (size_t i = 0; i < sizeof plain; i++) {
@@ -323,7 +330,7 @@ TEST_ON(gaussians_by_numbers, 2) {
             assert_true(by <= 1);
             apart += by > 0, seen += plain[i] != 255;
         }
-        print_message("gaussians by %s: %zu of %zu bytes apart by 1\n", n < 3 ? words[n] : "tint", apart, seen);
+        print_message("gaussians by %s: %zu of %zu bytes apart by 1\n", n != 3 ? words[n] : "tint", apart, seen);
         assert_true(seen > 2000 && apart < seen / 50);
         if (n < 3) assert_true(fabs(range[0] - low) < 1e-6 && fabs(range[1] - high) < 1e-6);
         ewa_gaussians_free(&same_colors);

@@ -92,6 +92,35 @@ TEST_ON(only_large_sets, 2) {
     }
 }
 
+/// What stands for several is of the class of most of it.
+TEST(classes) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_gaussians set = ball(context, false);
+    ewa_splats *splats = NULL;
+    assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
+    for (size_t i = 0; i < COUNT; i++) set.classes[i] = i % 8 == 7 ? 9 : set.centers[3 * i + 2] > 0 ? 700 : 2;
+    assert_int_equal(ewa_splats_create(&set, true, &splats), EWA_OK);
+    assert_true(splats->info.has_levels && splats->info.has_classes);
+    size_t counts[3] = {0}, amiss = 0;
+    for (size_t p = 0; p < ewa_splats_all_packets(splats); p++)
+        for (uint32_t lane = 0; lane < EWA_SPLAT_LANES; lane++) {
+            const float z = splats->packets[p][EWA_SPLAT_PLACE + 2][lane];
+            const uint16_t class = splats->classes[p][lane];
+            if (splats->packets[p][EWA_SPLAT_OPACITY][lane] <= 0) continue;
+            const bool merged = p >= splats->packet_count;
+            counts[merged ? 2 : class == 9]++;
+            if (class != 9) amiss += class != (z > 0 ? 700 : 2);
+            else if (merged) amiss++;
+        }
+    print_message("of %zu that stand for others %zu are of another class than most around them\n", counts[2], amiss);
+    assert_int_equal(counts[0] + counts[1], COUNT);
+    assert_int_equal(counts[1], COUNT / 8);
+    assert_true(counts[2] > COUNT / 4 && amiss < counts[2] / 20);
+    ewa_splats_destroy(&splats);
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
 TEST(same_bytes) {
     float *first = NULL;
     WITH_DEFAULTS(ewa_gaussian_options, options);

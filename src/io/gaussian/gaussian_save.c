@@ -99,7 +99,9 @@ static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ew
     memcpy(turned->opacities, set->opacities, (size_t)set->count * sizeof(float));
     memcpy(turned->harmonics, set->harmonics,
            3 * (size_t)ewa_sh_count(set->sh_degree) * set->count * sizeof(float));
-    ewa_status status = ewa_gaussians_transform(turned, matrix);
+    ewa_status status = set->classes ? ewa_gaussians_add_classes(turned) : EWA_OK;
+    if (status == EWA_OK && set->classes) memcpy(turned->classes, set->classes, set->count * sizeof *set->classes);
+    if (status == EWA_OK) status = ewa_gaussians_transform(turned, matrix);
     if (status != EWA_OK) ewa_gaussians_free(turned);
     return status;
 }
@@ -114,6 +116,9 @@ static ewa_status write_set(const ewa_gaussians *set, const char *path, size_t f
     };
     EWA_TRY(ewa_writer_open(set->context, path, &target.writer));
     ewa_status status = formats[format].write(&target);
+    if (status == EWA_OK && set->classes && formats[format].format != EWA_GAUSSIANS_PLY)
+        ewa_report(set->context, EWA_SEVERITY_WARNING, "%s: %s has no room for classes, which .ply has", path,
+                   ewa_gaussian_format_name(formats[format].format));
     if (status == EWA_OK) return ewa_writer_commit(&target.writer);
     ewa_writer_abort(&target.writer);
     return status;

@@ -20,7 +20,8 @@ typedef struct columns {
     uint32_t x[3], dc[3], opacity, scale[3], rotation[4], filter;
     uint32_t rest[MAX_REST], rest_count;
     uint32_t sh_degree;
-    bool flat, filtered, exact; ///< exact: centres are doubles
+    uint32_t label;
+    bool flat, filtered, labelled, exact; ///< exact: centres are doubles
 } columns;
 
 /// Finds a scalar of the vertices.
@@ -39,6 +40,18 @@ static uint32_t find_row(const ewa_ply_header *header, const ewa_ply_element *el
         if (!find(header, element, name, &properties[count])) break;
     }
     return count;
+}
+
+/// Finds the number that says what a Gaussian is part of, by the names that programs have for it.
+static bool find_class(const ewa_ply_header *header, const ewa_ply_element *element, uint32_t *property) {
+    static const char *const names[] = {"classification", "scalar_classification", "class", "label", "scalar_label"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+        for (uint32_t k = 0; k < element->property_count; k++) {
+            *property = element->first_property + k;
+            const ewa_ply_property *own = &header->properties[*property];
+            if (!own->is_list && ewa_text_is_any_case(own->name, names[n])) return true;
+        }
+    return false;
 }
 
 /// Whether the vertices have the columns of 3DGS or 2DGS.
@@ -68,6 +81,7 @@ static ewa_status find_columns(const ewa_gaussian_source *source, const ewa_ply_
     find(header, vertices, "opacity", &made->opacity);
     made->flat = find_row(header, vertices, "scale", 3, made->scale) == 2;
     made->filtered = find(header, vertices, "filter_3D", &made->filter);
+    made->labelled = find_class(header, vertices, &made->label);
     made->rest_count = find_row(header, vertices, "f_rest", MAX_REST, made->rest);
     while (3 * (ewa_sh_count(made->sh_degree) - 1) < made->rest_count) made->sh_degree++;
     if (3 * (ewa_sh_count(made->sh_degree) - 1) == made->rest_count) return EWA_OK;
@@ -95,7 +109,7 @@ static void add_floats(const ewa_ply_header *header, uint32_t property, float *t
 }
 
 /// Leads every column to its stream. f_rest has all coefficients of red, then of green, then of blue.
-static void fill_sink(const ewa_ply_header *header, const columns *from, double *centers, float *filter,
+static void fill_sink(const ewa_ply_header *header, const columns *from, double *centers, float *filter, float *labels,
                       ewa_gaussians *set, ewa_ply_sink *sink) {
     const uint32_t coefficients = ewa_sh_count(set->sh_degree);
     const size_t harmonics_stride = 3 * (size_t)coefficients;
@@ -111,6 +125,7 @@ static void fill_sink(const ewa_ply_header *header, const columns *from, double 
     for (uint32_t k = 0; k < 4; k++) add_floats(header, from->rotation[k], set->rotations + k, 4, sink);
     add_floats(header, from->opacity, set->opacities, 1, sink);
     if (filter) add_floats(header, from->filter, filter, 1, sink);
+    if (labels) add_floats(header, from->label, labels, 1, sink);
     for (uint32_t i = 0; i < from->rest_count; i++) {
         const uint32_t color = i / (coefficients - 1), k = 1 + i % (coefficients - 1);
         add_floats(header, from->rest[i], set->harmonics + 3 * (size_t)k + color, harmonics_stride, sink);
@@ -134,15 +149,31 @@ ewa_status ewa_gaussians_ply_read_element(const ewa_ply_source *ply, const ewa_p
                                              : ewa_ply_binary_read(ply, header, element, sink, at);
 }
 
+/// Takes classes; labels that are none, as the -1 of what belongs to nothing, are class 0, "never classified".
+static ewa_status take_classes(const ewa_gaussian_source *source, const float *labels, ewa_gaussians *set) {
+    EWA_TRY(ewa_gaussians_add_classes(set));
+    uint32_t none_count = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        const bool is_class = labels[i] >= 0 && labels[i] <= UINT16_MAX && labels[i] == floorf(labels[i]);
+        set->classes[i] = is_class ? (uint16_t)labels[i] : 0;
+        none_count += !is_class;
+    }
+    if (none_count)
+        ewa_report(source->context, EWA_SEVERITY_WARNING, "%s: %u of %u classes are no whole numbers from 0 to %u; they are taken as 0", source->name,
+                   none_count, set->count, UINT16_MAX);
+    return EWA_OK;
+}
+
 /// Reads the records into the set and the memory beside it.
 static ewa_status read_records(const ewa_gaussian_source *source, const ewa_ply_source *ply,
                                const ewa_ply_header *header, const columns *from, uint64_t at,
-                               double *centers, float *filter, ewa_gaussians *set) {
-    ewa_ply_stream streams[3 + 3 + 3 + 4 + 1 + 1 + MAX_REST];
+                               double *centers, float *filter, float *labels, ewa_gaussians *set) {
+    ewa_ply_stream streams[3 + 3 + 3 + 4 + 1 + 1 + 1 + MAX_REST];
     ewa_ply_sink sink = {.streams = streams, .stream_capacity = sizeof streams / sizeof streams[0]};
-    fill_sink(header, from, centers, filter, set, &sink);
+    fill_sink(header, from, centers, filter, labels, set, &sink);
     EWA_TRY(ewa_gaussians_ply_read_element(ply, header, from->element, &sink, &at));
     if (centers) ewa_gaussians_place(centers, set);
+    if (labels) EWA_TRY(take_classes(source, labels, set));
     const ewa_gaussian_form form = {.log_scales = true, .logits = true, .filter = filter};
     return ewa_gaussians_settle(source, &form, set);
 }
@@ -157,16 +188,18 @@ static ewa_status read_plain(const ewa_gaussian_source *source, const ewa_ply_so
     set->flat = from.flat;
     set->antialiased = facts->filtered = from.filtered;
     const size_t center_count = from.exact ? 3 * (size_t)set->count : 0,
-                 filter_count = from.filtered ? set->count : 0;
+                 filter_count = from.filtered ? set->count : 0, label_count = from.labelled ? set->count : 0;
     double *centers = center_count ? ewa_allocate(source->context, center_count, sizeof *centers) : NULL;
     float *filter = filter_count ? ewa_allocate(source->context, filter_count, sizeof *filter) : NULL;
+    float *labels = label_count ? ewa_allocate(source->context, label_count, sizeof *labels) : NULL;
     ewa_status status = EWA_OK;
-    if ((center_count && !centers) || (filter_count && !filter))
+    if ((center_count && !centers) || (filter_count && !filter) || (label_count && !labels))
         status = EWA_ERROR_MEMORY;
     else
-        status = read_records(source, ply, header, &from, at, centers, filter, set);
+        status = read_records(source, ply, header, &from, at, centers, filter, labels, set);
     ewa_release(source->context, centers, center_count, sizeof *centers);
     ewa_release(source->context, filter, filter_count, sizeof *filter);
+    ewa_release(source->context, labels, label_count, sizeof *labels);
     return status;
 }
 

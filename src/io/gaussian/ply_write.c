@@ -9,7 +9,7 @@
 enum {
     HEAD_BYTES = 4096,
     MAX_NUMBERS = 6 + 3 * (EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) + 8,
-    RECORD_BYTES = 3 * 8 + 4 * MAX_NUMBERS,
+    RECORD_BYTES = 3 * 8 + 4 * MAX_NUMBERS + 2,
 };
 
 /// The largest logit that is written: 1 / (1 + exp(-it)) is 1 to a float, and opacities of 0 cannot be seen.
@@ -39,7 +39,8 @@ static ewa_status put_header(const ewa_gaussian_target *target) {
                           ? snprintf(head + length, sizeof head - (size_t)length, "property float %s_%u\n",
                                      names[n], k)
                           : snprintf(head + length, sizeof head - (size_t)length, "property float opacity\n");
-    length += snprintf(head + length, sizeof head - (size_t)length, "end_header\n");
+    length += snprintf(head + length, sizeof head - (size_t)length, "%send_header\n",
+                       set->classes ? "property ushort classification\n" : "");
     return ewa_writer_put(target->writer, head, (size_t)length);
 }
 
@@ -72,6 +73,7 @@ static ewa_status put_record(const ewa_gaussian_target *target, size_t i) {
     for (size_t k = 0; k < (set->flat ? 2u : 3u); k++)
         to = ewa_put_f32(to, (float)ewa_log_scale(set->scales[3 * i + k]));
     for (size_t k = 0; k < 4; k++) to = ewa_put_f32(to, set->rotations[4 * i + k]);
+    if (set->classes) *to++ = (uint8_t)set->classes[i], *to++ = (uint8_t)(set->classes[i] >> 8);
     return ewa_writer_put(target->writer, record, (size_t)(to - record));
 }
 
