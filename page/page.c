@@ -178,9 +178,9 @@ page *page_create(uint32_t width, uint32_t height, double scale, uint32_t thread
     page *made = calloc(1, sizeof *made);
     if (!made) return NULL;
     page_threads_init(&made->threads);
-    ewa_lod_options lod;
-    ewa_lod_options_init(&lod, sizeof lod);
-    lod.memory_bytes = NODE_BYTES;
+    viewer_look look;
+    viewer_look_init(&look);
+    look.scene.lod.memory_bytes = NODE_BYTES;
     const viewer_options options = {
         .services = {.user = made, .context = context, .load = load, .place = place, .say = say, .waiting = waiting},
         .thread_count = 1,
@@ -191,7 +191,7 @@ page *page_create(uint32_t width, uint32_t height, double scale, uint32_t thread
         .width = width,
         .height = height,
         .scale = scale,
-        .lod = &lod,
+        .look = &look,
         .stepped = true};
     if (viewer_create(&options, &made->viewer) == EWA_OK) return made;
     free(made);

@@ -169,7 +169,9 @@ struct viewer {
     uint64_t next_id;
     char opened[VIEWER_PATH_BYTES]; ///< what was opened last
     uint64_t opened_count;
-    ewa_scene_options base; ///< what scene files say beside the settings
+    ewa_scene_options base; ///< what the program and scene files say beside the settings
+    ewa_coloring coloring;  ///< of files that no scene file names
+    char transfer[VIEWER_PATH_BYTES]; ///< of volumes of which no scene file says one; empty: automatic
     ewa_scene_file **files; ///< scene files that were opened
     size_t file_count;
     bool has_scene_camera;

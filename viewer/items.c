@@ -32,12 +32,7 @@ static void wait_if_asked(viewer *v) {
     }
 }
 
-/// Sets how an item is shown to what a scene file says.
-static void take_instance(const ewa_instance *instance, scene_item *item) {
-    const ewa_coloring *coloring = &instance->coloring;
-    viewer_coloring *wish = &item->wish;
-    item->visible = instance->visible;
-    item->material = instance->material;
+static void take_coloring(const ewa_coloring *coloring, viewer_coloring *wish) {
     memcpy(wish->attribute, coloring->attribute, sizeof wish->attribute);
     wish->map = coloring->map;
     wish->ranged = coloring->ranged;
@@ -45,8 +40,16 @@ static void take_instance(const ewa_instance *instance, scene_item *item) {
     memcpy(wish->percent, coloring->percent, sizeof wish->percent);
     wish->tinted = coloring->tinted;
     memcpy(wish->tint, coloring->tint, sizeof wish->tint);
-    wish->alpha = instance->opacity;
-    wish->radius_scale = instance->radius_scale;
+}
+
+/// Sets how an item is shown to what a scene file says, and where that says nothing of its colours, to what the program does.
+static void take_instance(const ewa_instance *instance, scene_item *item) {
+    const ewa_coloring *said = &instance->coloring;
+    item->visible = instance->visible;
+    item->material = instance->material;
+    if (said->tinted || said->attribute[0]) take_coloring(said, &item->wish);
+    item->wish.alpha = instance->opacity;
+    item->wish.radius_scale = instance->radius_scale;
 }
 
 /// Orders a file; `file` (may be NULL) is the scene file that names it, as `entry`.
@@ -69,11 +72,14 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     item->file = file;
     item->entry = entry;
     viewer_coloring_init(&item->wish);
+    take_coloring(&v->coloring, &item->wish);
+    snprintf(item->load.transfer, sizeof item->load.transfer, "%s", v->transfer);
     ewa_scene_entry said;
     if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) {
         take_instance(&said.instance, item);
         memcpy(usual.to_world, said.asset.to_world, sizeof usual.to_world);
-        if (said.asset.transfer) snprintf(item->load.transfer, sizeof item->load.transfer, "%s", said.asset.transfer);
+        if (said.asset.transfer)
+            snprintf(item->load.transfer, sizeof item->load.transfer, "%s", said.asset.transfer);
     }
     memcpy(item->load.to_world, usual.to_world, sizeof usual.to_world);
     item->shown_load = item->load;
@@ -490,9 +496,14 @@ static void take_photos(viewer *v, const loader_note *note) {
     photos_take(v, (size_t)(item - v->items), &note->photos, &note->found);
 }
 
-/// What came to nothing goes, or is again as it was.
+/// Whether an item is coloured as the program says for all, which may not fit it.
+static bool is_program_coloring(const viewer *v, const viewer_coloring *wish) {
+    return wish->attribute[0] && strcmp(wish->attribute, v->coloring.attribute) == 0;
+}
+
+/// What came to nothing goes, or is again as it was; what cannot be coloured as the program says for all has its own colours.
 static void take_failure(viewer *v, const loader_note *note) {
-    bool gone = false;
+    bool gone = false, again = false;
     for (size_t i = v->item_count; i-- > 0;) {
         scene_item *item = &v->items[i];
         if (note->item && item->id != note->item) continue;
@@ -500,13 +511,16 @@ static void take_failure(viewer *v, const loader_note *note) {
             item->wish = item->coloring;
             item->load = item->shown_load;
             item->counts = item->photographed = false;
+        } else if (!note->item && item->asset && !item->named && is_program_coloring(v, &item->wish)) {
+            viewer_coloring_init(&item->wish);
+            again = true;
         } else if (note->item || item->asset) {
             remove_item(v, i);
             gone = true;
         }
     }
     if (gone) show(v, v->scene);
-    if (gone && !note->item) items_reorder(v);
+    if ((gone || again) && !note->item) items_reorder(v);
 }
 
 void items_update(viewer *v) {

@@ -207,7 +207,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgb
     if (v->measures_kind && v->measuring.count) draw_measure(&o, v, &v->measuring);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
-    furniture.unit = v->unit;
+    if (!furniture.unit) furniture.unit = v->unit;
     furniture.ink = ink;
     ewa_category categories[VIEWER_MAX_CLASSES];
     if (furniture.color_bar) set_color_bar(v, categories, &furniture);

@@ -83,10 +83,6 @@ static void *place_of(viewer *v, setting_owner owner) {
 void settings_init(viewer *v) {
     v->settings = (viewer_settings){
         .struct_size = sizeof v->settings, .budget_ms = 25, .reduce = true, .animate = true, .volume_density = 1};
-    ewa_render_options_init(&v->render, sizeof v->render);
-    for (int c = 0; c < 4; c++) v->render.background[c] = 1; // as `ewa render`
-    ewa_furniture_options_init(&v->furniture, sizeof v->furniture);
-    ewa_lod_options_init(&v->lod, sizeof v->lod);
     ewa_photos_options_init(&v->photos, sizeof v->photos);
 }
 

@@ -104,6 +104,27 @@ void viewer_coloring_init(viewer_coloring *coloring) {
     *coloring = (viewer_coloring){.alpha = 1, .radius_scale = 1};
 }
 
+void viewer_look_init(viewer_look *look) {
+    *look = (viewer_look){.transfer = NULL};
+    ewa_scene_options_init(&look->scene, sizeof look->scene);
+    ewa_furniture_options_init(&look->furniture, sizeof look->furniture);
+    ewa_coloring_init(&look->coloring, sizeof look->coloring);
+}
+
+/// Has everything shown as the options say. False: a path is too long.
+static bool take_look(viewer *v, const viewer_look *look) {
+    const char *title = look->furniture.title ? look->furniture.title : "", *transfer = look->transfer ? look->transfer : "";
+    v->base = look->scene;
+    v->render = look->scene.render;
+    v->lod = look->scene.lod;
+    v->furniture = look->furniture;
+    v->furniture.title = title[0] ? v->title : NULL;
+    v->coloring = look->coloring;
+    cutaway_take(v);
+    snprintf(v->title, sizeof v->title, "%s", title);
+    return snprintf(v->transfer, sizeof v->transfer, "%s", transfer) < (int)sizeof v->transfer;
+}
+
 ewa_status viewer_create(const viewer_options *options, viewer **made) {
     *made = NULL;
     if (!(options->scale > 0 && isfinite(options->scale)) || !options->width || !options->height)
@@ -116,8 +137,9 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->stepped = options->stepped;
     v->width = options->width, v->height = options->height, v->scale = options->scale;
     settings_init(v);
-    ewa_scene_options_init(&v->base, sizeof v->base);
-    if (options->lod) v->lod = *options->lod;
+    viewer_look usual;
+    viewer_look_init(&usual);
+    const bool fits = take_look(v, options->look ? options->look : &usual);
     ewa_camera_init(&v->camera);
     if (options->camera) {
         v->camera = *options->camera;
@@ -132,7 +154,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->turns = malloc(sizeof *v->turns);
     if (v->turns) turns_init(&v->turns->files);
     if (v->turns) turns_init(&v->turns->nodes);
-    ewa_status status = v->turns ? loader_create(&v->services, v->stepped, &v->loader) : EWA_ERROR_MEMORY;
+    ewa_status status = !fits ? EWA_ERROR_ARGUMENT : v->turns ? loader_create(&v->services, v->stepped, &v->loader) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = painter_create(options, &v->painter);
     if (status == EWA_OK && !v->stepped && !v->waits) status = node_reader_create(v->turns, &v->node_reader);
     if (status == EWA_OK)

@@ -104,6 +104,16 @@ typedef struct viewer_services {
     bool (*clipboard_get)(void *user, char *text, size_t text_bytes);
 } viewer_services;
 
+/// How things are shown at first. Fill with viewer_look_init().
+typedef struct viewer_look {
+    ewa_scene_options scene;         ///< its objects are borrowed as long as the viewer
+    ewa_furniture_options furniture; ///< its texts are copied, but for the unit, which is borrowed; NULL: as the files say
+    ewa_coloring coloring;           ///< of files that no scene file names; those without its attribute have their own colours
+    const char *transfer;            ///< of volumes: a preset or a file, copied; NULL: automatic
+} viewer_look;
+
+void viewer_look_init(viewer_look *look);
+
 /// How a viewer is made.
 typedef struct viewer_options {
     viewer_services services;
@@ -114,7 +124,7 @@ typedef struct viewer_options {
     ewa_backend_kind backend;   ///< draws the pictures
     uint32_t width, height;     ///< of the window, points
     double scale;               ///< pixels per point, > 0
-    const ewa_lod_options *lod; ///< of octrees, copied; NULL: defaults
+    const viewer_look *look;    ///< copied; NULL: defaults
     bool stepped;               ///< no threads: viewer_frame() does what there is to do, one thing at a time
     bool waits;                 ///< drawing and loading are waited for: no picture depends on time (scripts)
     const ewa_camera *camera;   ///< the first look; NULL: as the program frames it

@@ -17,7 +17,7 @@ static bool has_any(const furnish_arguments *arguments) {
 
 bool furnish_check(const furnish_arguments *arguments, const char *output, char message[OPTION_ERROR_BYTES]) {
     const char *wrong = NULL;
-    if (has_any(arguments) && path_has_suffix(output, ".exr|.pfm"))
+    if (output && has_any(arguments) && path_has_suffix(output, ".exr|.pfm"))
         wrong =
             "--title, --axes, --scale-bar and --color-bar are not drawn on .exr and .pfm, which hold data; "
             "write a .png or a film";

@@ -30,7 +30,7 @@ typedef struct furnish_arguments {
             .absent = "auto: as the files' reference systems say"                                                                                 \
     }
 
-/// Says in `message` what is wrong with the options and the output; see command.check.
+/// Says in `message` what is wrong with the options and the output, NULL for a window; see command.check.
 bool furnish_check(const furnish_arguments *arguments, const char *output, char message[OPTION_ERROR_BYTES]);
 
 /// What is put over each frame.

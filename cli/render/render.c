@@ -7,16 +7,11 @@
 #include "cli/base/json.h"
 #include "cli/base/pattern.h"
 #include "cli/input/inputs.h"
-#include "cli/input/lod_input.h"
-#include "cli/input/scene_input.h"
 #include "cli/render/frame_partition.h"
 #include "cli/render/frames.h"
-#include "cli/render/furnish.h"
-#include "cli/render/gaussians.h"
-#include "cli/render/light.h"
+#include "cli/render/look.h"
 #include "cli/render/picture.h"
 #include "cli/render/render_report.h"
-#include "cli/render/section.h"
 #include "cli/render/sequence.h"
 #include "cli/render/video.h"
 
@@ -25,30 +20,16 @@
 
 typedef struct render_arguments {
     frames_arguments frames; // first: it begins with the common arguments
-    light_arguments light;   // second
+    look_arguments look;     // second
     const char *output, *aov, *save_camera_path, *save_scene_path, *stats_path;
-    ewa_surfels_options surfels;
-    section_arguments section;
-    bool close_gaps;
-    lod_arguments lod;
-    ewa_gaussian_options gaussians;
-    ewa_volume_options volumes;
-    bool gaussians_as_surfels;
-    const char *transfer;
-    const char *layers;
-    coloring_arguments coloring;
     int backend;
-    option_color background;
-    furnish_arguments furniture;
     uint64_t outlines; ///< how many surfels' outlines are drawn over the picture
     ewa_panorama_options panorama;
 } render_arguments;
 
-#define AT(member)      offsetof(render_arguments, member)
-#define SURFELS(member) OPTION_OF(ewa_surfels_options, AT(surfels), member)
-#define RENDER(member)  OPTION_OF(ewa_render_options, AT(light.render), member)
+#define AT(member) offsetof(render_arguments, member)
 
-_Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
+_Static_assert(offsetof(render_arguments, look) == LOOK_OFFSET, "the look's tables say so");
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
@@ -71,77 +52,21 @@ static const cli_option output_table[] = {
     BACKEND_OPTION(AT(backend)),
 };
 
-static const cli_option splat_table[] = {
-    {"kernel", RENDER(kernel)},
-    {"cutoff", SURFELS(cutoff)},
-    {"prefilter", RENDER(prefilter_px)},
-    {"radius-scale", SURFELS(radius_scale)},
-    {"point-size", RENDER(point_size_px)},
-    {"close-gaps", OPTION_ON_OFF, AT(close_gaps),
-     .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
-    {"tolerance", RENDER(tolerance)},
-    {"passes", RENDER(passes)},
-    {"edge-aa", RENDER(edge_antialiasing)},
-    {"edge-layers", RENDER(edge_layers)},
-    {"layers", OPTION_TEXT, AT(layers), "auto|L|exact",
-     .help = "transparent surfaces of a pixel that are composited: 1: the nearest as if it were opaque; L: "
-             "the L - 1 nearest and all that lies behind as one more; exact: all; auto: all when --opacity "
-             "or the file's alpha is below 1",
-     .absent = "auto"},
-    {"opacity", RENDER(opacity)},
-    {"supersampling", RENDER(supersampling)},
-    {"tau", RENDER(edge_threshold)},
-    {"cull", RENDER(cull)},
-};
-
-static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
-
 static const cli_option panorama_table[] = {
     {"panorama", OPTION_OF(ewa_panorama_options, AT(panorama), kind)},
     {"panorama-fov", OPTION_OF(ewa_panorama_options, AT(panorama), fov_deg), .needs = "panorama"},
 };
 
-static const cli_option gaussian_table[] = {
-    GAUSSIAN_OPTIONS(AT(gaussians)),
-    {"surface", OPTION_FLAG, AT(gaussians_as_surfels),
-     .help = "draw Gaussians as opaque surfels, with depth, normals and light, in their constant colours"},
-};
-
-static const cli_option volume_table[] = {
-    {"transfer", OPTION_TEXT, AT(transfer), "FILE|PRESET",
-     .help = "what values of volumes look like, as in 'ewa volume', whose --save-transfer writes such files",
-     .absent = "auto: by the surfaces between its materials"},
-    {"opacity-scale", OPTION_OF(ewa_volume_options, AT(volumes), density_scale)},
-};
-
-static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
-
-static const cli_option look_table[] = {
-    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
-     .aliases = "background-color"},
-    COLORING_OPTIONS(AT(coloring)),
-};
-
-static const cli_option furniture_table[] = {
-    FURNISH_OPTIONS(AT(furniture)),
+static const cli_option outline_table[] = {
     {"outlines", OPTION_INTEGER, AT(outlines), "N", "[0, 1000000]",
      .help = "draw the outlines of N of the surfels that are seen, as their kernels end; 0: none"},
-    {"color-bar", OPTION_FLAG, AT(furniture.color_bar),
-     .help = "show on the right, or at the bottom of a tall picture, what colours of numbers mean: a scale, or the classes there are"},
 };
 
 static void set_defaults(void *data) {
     render_arguments *arguments = data;
     frames_set_defaults(&arguments->frames);
     ewa_panorama_options_init(&arguments->panorama, sizeof arguments->panorama);
-    light_set_defaults(&arguments->light);
-    ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
-    arguments->close_gaps = true;
-    lod_input_set_defaults(&arguments->lod);
-    gaussians_set_defaults(&arguments->gaussians);
-    ewa_volume_options_init(&arguments->volumes, sizeof arguments->volumes);
-    arguments->coloring.colormap = EWA_COLORING_AUTO - 1;
-    arguments->background = (option_color){{1, 1, 1, 1}};
+    look_set_defaults(&arguments->look);
 }
 
 /// Paths of the picture, or of all frames: then with the place of their number. A film is none of the
@@ -153,53 +78,23 @@ static bool parse_paths(const render_arguments *arguments, picture_paths *paths,
            (!frames_many(&arguments->frames) || sequence_check_paths(paths, message));
 }
 
-/// Sets `layers` as ewa_render_options has them.
-static bool read_layers(const render_arguments *arguments, uint32_t *layers) {
-    const char *word = arguments->layers;
-    *layers = word && strcmp(word, "exact") == 0 ? EWA_LAYERS_EXACT : 0;
-    if (*layers || !word) return true;
-    for (; *word >= '0' && *word <= '9' && *layers <= 255; word++)
-        *layers = 10 * *layers + (uint32_t)(*word - '0');
-    return !*word && *layers >= 1 && *layers <= 255;
-}
-
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const render_arguments *arguments = data;
     picture_paths paths;
-    uint32_t layers;
     const char *missing = NULL;
     if (!arguments->output)
         missing = "render: no output; say -o FILE";
-    else if (!read_layers(arguments, &layers))
-        missing = "--layers: neither auto, nor exact, nor a number in [1, 255]";
-    else if (layers > 1 && arguments->light.render.passes == 1)
-        missing = "--layers needs --passes 3";
-    else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
-        missing = "--opacity below 1 needs --passes 3";
-    else if (arguments->coloring.colormap == EWA_COLORING_CLASSES - 1 && arguments->coloring.range.given)
-        missing = "--colormap classes takes no --range: each class has its own colour";
-    else if (arguments->furniture.color_bar && arguments->coloring.color_by && ewa_coloring_is_own(arguments->coloring.color_by))
-        missing = "--color-bar has nothing to show for the file's own colours";
     else if (arguments->outlines && path_has_suffix(arguments->output, ".exr|.pfm"))
         missing = "--outlines are not drawn on .exr and .pfm, which hold data";
-    else if (arguments->outlines && arguments->light.render.point_size_px > 0)
+    else if (arguments->outlines && arguments->look.light.render.point_size_px > 0)
         missing = "--outlines are of surfels, and --point-size draws none";
     else if (arguments->panorama.kind != EWA_PANORAMA_NONE &&
-             (arguments->outlines || arguments->furniture.axes || arguments->furniture.scale_bar || arguments->frames.view.ortho_height > 0))
+             (arguments->outlines || arguments->look.furniture.axes || arguments->look.furniture.scale_bar || arguments->frames.view.ortho_height > 0))
         missing = "--panorama has no --outlines, --axes, --scale-bar and --ortho: these are of plane pictures";
     if (!options_fine(missing, message)) return false;
-    return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
-           frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
-           parse_paths(arguments, &paths, message) &&
-           furnish_check(&arguments->furniture, arguments->output, message);
-}
-
-static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
-    ewa_render_options options = light_apply(&arguments->light, lit_by);
-    read_layers(arguments, &options.layers);
-    section_fill(&arguments->section, options.section_planes, &options.section_count);
-    option_color_linear(&arguments->background, options.background);
-    return options;
+    return look_check(&arguments->look, arguments->output, message) &&
+           frames_check(&arguments->frames, arguments->output, arguments->look.background.rgba[3] == 1, message) &&
+           parse_paths(arguments, &paths, message);
 }
 
 /// What all frames share.
@@ -212,33 +107,16 @@ typedef struct render_scene {
     ewa_panorama_options panorama;
 } render_scene;
 
-/// The scene's options as the program's say.
-static ewa_scene_options scene_options(const render_arguments *arguments, const ewa_render_options *render) {
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
-    options.close_gaps = arguments->close_gaps;
-    options.keep_points = arguments->outlines > 0;
-    options.surfels = arguments->surfels;
-    options.lod = arguments->lod.options;
-    options.many_frames = frames_many(&arguments->frames);
-    options.render = *render;
-    options.gaussians = arguments->gaussians;
-    options.volumes = arguments->volumes;
-    options.shade_volumes = arguments->light.shading < 0;
-    if (arguments->light.shading >= 0) options.volumes.shading = (ewa_shading)arguments->light.shading;
-    return options;
-}
-
 /// Says which options of surfaces are given where there are none.
 static void warn_of_surface_options(cli_session *session, const render_arguments *arguments, bool volumes) {
-    const light_arguments *light = &arguments->light;
+    const light_arguments *light = &arguments->look.light;
     ewa_render_options usual;
     ewa_render_options_init(&usual, sizeof usual);
     const struct {
         const char *name;
         bool given;
     } options[] = {{"opacity", light->render.opacity < 1},
-                   {"layers", arguments->layers},
+                   {"layers", arguments->look.layers},
                    {"point-size", light->render.point_size_px > 0},
                    {"prefilter", light->render.prefilter_px != usual.prefilter_px},
                    {"shading", light->shading > EWA_SHADING_NONE && !volumes}};
@@ -255,8 +133,8 @@ static bool check_scene(cli_session *session, const render_arguments *arguments,
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
     ewa_scene_describe(scene, &info);
-    const bool colored = arguments->coloring.color_by && !ewa_coloring_is_own(arguments->coloring.color_by);
-    if (info.octrees && arguments->surfels.cutoff != surfels.cutoff) {
+    const bool colored = arguments->look.coloring.color_by && !ewa_coloring_is_own(arguments->look.coloring.color_by);
+    if (info.octrees && arguments->look.surfels.cutoff != surfels.cutoff) {
         session_fail(
             session,
             "--cutoff needs all points of an octree; --levels never reads them, or `ewa convert` what "
@@ -287,20 +165,18 @@ static bool place_panorama(cli_session *session, const render_arguments *argumen
 }
 
 /// Loads what is to be drawn, places the cameras and makes all resident. False after reporting.
-static bool prepare(cli_session *session, const render_arguments *arguments, const ewa_render_options *render,
+static bool prepare(cli_session *session, const render_arguments *arguments, const light_objects *lit_by,
                     render_scene *scene, render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
-    const ewa_scene_options options = scene_options(arguments, render);
+    ewa_scene_options options = look_scene_options(&arguments->look, lit_by);
+    options.keep_points = arguments->outlines > 0;
+    options.many_frames = frames_many(&arguments->frames);
     scene->outlines = (uint32_t)arguments->outlines;
     ewa_asset_options assets = scene_input_asset_options(session);
-    assets.gaussians_as_surfels = arguments->gaussians_as_surfels;
+    look_set_asset_options(&arguments->look, &assets);
     assets.gaussian_levels = options.gaussians.merge_px > 0;
-    assets.levels = lod_input_levels(&arguments->lod);
-    assets.cutoff = arguments->surfels.cutoff;
-    assets.transfer = arguments->transfer;
-    assets.reach_steps = arguments->volumes.sigma * arguments->volumes.cutoff;
     ewa_coloring coloring;
-    scene_input_coloring(&arguments->coloring, &coloring);
+    scene_input_coloring(&arguments->look.coloring, &coloring);
     ewa_status status = ewa_scene_create(session->context, &options, &scene->scene);
     if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
     if (!scene_input_add(session, common->operand_count, common->operands, &assets, &coloring, scene->scene)) return false;
@@ -314,7 +190,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     }
     const view_subject subject = {.scene = scene->scene};
     if (!frames_make(session, &arguments->frames, &subject, &scene->frames) ||
-        !furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
+        !furnish_make(session, &arguments->look.furniture, &arguments->frames, &arguments->look.background, &subject,
                       &scene->furniture))
         return false;
     if (!place_panorama(session, arguments, &subject, scene)) return false;
@@ -331,18 +207,12 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     report->surfels = info.surfels;
     const ewa_legend *legend = NULL;
     for (uint32_t i = 0; i < info.instance_count && !legend; i++) legend = ewa_scene_legend(scene->scene, i);
-    if (!arguments->furniture.color_bar) return true;
+    if (!arguments->look.furniture.color_bar) return true;
     if (legend)
         furnish_color_bar(legend, &scene->furniture);
     else
         session_fail(session, "--color-bar has nothing to show for the file's own colours; --color-by ATTR shows a number");
     return legend;
-}
-
-static bool make_scene(cli_session *session, const render_arguments *arguments, const light_objects *lit_by,
-                       render_scene *scene, render_report *report) {
-    const ewa_render_options render = render_options(arguments, lit_by);
-    return prepare(session, arguments, &render, scene, report);
 }
 
 /// What paint() works with.
@@ -401,7 +271,7 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
                  render_scene *scene, render_report *report) {
     const bool many = frames_many(&arguments->frames);
     const sequence_output output =
-        sequence_output_of(&arguments->frames, arguments->output, paths, arguments->background.rgba[3] == 1);
+        sequence_output_of(&arguments->frames, arguments->output, paths, arguments->look.background.rgba[3] == 1);
     scene_painter painting = {.session = session, .scene = scene, .report = report};
     const frame_cameras *frames = &scene->frames;
     const bool saves_camera = arguments->save_camera_path && process_group_leads(session->group);
@@ -447,8 +317,8 @@ static int run(const void *data) {
                 frame_partition_choose(&session, &scene.frames);
     const bool idle = done && !frames->chosen_count && !arguments->save_camera_path &&
                       !arguments->save_scene_path && !arguments->stats_path;
-    done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
-           make_scene(&session, arguments, &lit_by, &scene, &report) &&
+    done = done && !idle && light_load(&session, &arguments->look.light, &lit_by) &&
+           prepare(&session, arguments, &lit_by, &scene, &report) &&
            draw(&session, arguments, &paths, &scene, &report) &&
            (!arguments->stats_path || !process_group_leads(session.group) ||
             render_report_write(&session, common, many, frames, &report, arguments->stats_path));
@@ -470,14 +340,8 @@ static int run(const void *data) {
 }
 
 static const option_group panorama_group = OPTION_GROUP("Panorama", panorama_table);
+static const option_group outline_options = OPTION_GROUP("Outlines", outline_table);
 static const option_group output_options = OPTION_GROUP("Output", output_table);
-static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
-static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
-static const option_group gaussian_options = OPTION_GROUP("Gaussians", gaussian_table);
-static const option_group volume_options = OPTION_GROUP("Volumes", volume_table);
-static const option_group section_options = OPTION_GROUP("Section", section_table);
-static const option_group look_options = OPTION_GROUP("Look", look_table);
-static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
 const cli_command render_command = {
     .name = "render",
     .operands = "IN... -o OUT",
@@ -523,9 +387,7 @@ const cli_command render_command = {
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options,
-                                            &panorama_group, &frames_options, &splat_options, &lod_options, &gaussian_options,
-                                            &volume_options, &section_options, &light_options, &look_options,
-                                            &furniture_options, NULL},
+                                            &panorama_group, &frames_options, LOOK_GROUPS, &outline_options, NULL},
     .arguments_bytes = sizeof(render_arguments),
     .set_defaults = set_defaults,
     .check = check,

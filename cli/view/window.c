@@ -7,7 +7,6 @@
 #include "cli/base/child.h"
 #include "cli/base/commands.h"
 #include "cli/input/inputs.h"
-#include "cli/input/lod_input.h"
 #include "cli/view/window_services.h"
 
 #ifdef __GLIBC__
@@ -15,12 +14,12 @@
 #endif
 
 typedef struct window_arguments {
-    view_arguments view; // first
+    frames_arguments frames; // first; the camera's options of it are taken, there are no frames
+    look_arguments look;     // second
     const char *script_path;
     bool timings, window;
     double scale;
     int backend;
-    lod_arguments lod;
 } window_arguments;
 
 static const cli_option window_table[] = {
@@ -36,19 +35,19 @@ static const cli_option window_table[] = {
     BACKEND_OPTION(offsetof(window_arguments, backend)),
 };
 
-static const cli_option lod_table[] = {LOD_OPTIONS(offsetof(window_arguments, lod))};
+_Static_assert(offsetof(window_arguments, look) == LOOK_OFFSET, "the look's tables say so");
 
 static void set_defaults(void *data) {
     window_arguments *arguments = data;
-    lod_input_set_defaults(&arguments->lod);
-    view_set_defaults(&arguments->view);
-    arguments->view.size = (option_size){1280, 800, false};
+    view_set_defaults(&arguments->frames.view);
+    look_set_defaults(&arguments->look);
+    arguments->frames.view.size = (option_size){1280, 800, false};
     arguments->scale = 1;
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const window_arguments *arguments = data;
-    return view_check(&arguments->view, false, message);
+    return look_check(&arguments->look, NULL, message) && view_check(&arguments->frames.view, false, message);
 }
 
 /// Keeps memory flat over hours: else the C library gives each thread that loads or draws a heap of its own, which stays when the
@@ -66,8 +65,10 @@ static void keep_memory_flat(void) {
 int window_run(const void *data, int (*front)(const front_job *job)) {
     keep_memory_flat();
     const window_arguments *arguments = data;
-    const common_arguments *common = &arguments->view.common;
+    const view_arguments *view = &arguments->frames.view;
+    const common_arguments *common = &view->common;
     window_services services;
+    viewer_look look;
     front_job job = {.paths = common->operands,
                      .path_count = common->operand_count,
                      .script_path = arguments->script_path,
@@ -76,14 +77,13 @@ int window_run(const void *data, int (*front)(const front_job *job)) {
                      .options = {.thread_count = (uint32_t)common->threads,
                                  .cpu_mask = EWA_CPU_ALL,
                                  .backend = (ewa_backend_kind)arguments->backend,
-                                 .width = arguments->view.size.width_px,
-                                 .height = arguments->view.size.height_px,
+                                 .width = view->size.width_px,
+                                 .height = view->size.height_px,
                                  .scale = arguments->scale,
-                                 .lod = &arguments->lod.options,
+                                 .look = &look,
                                  .waits = arguments->script_path && !arguments->timings}};
-    if (!window_services_make(&services, &arguments->view, &job.options.services)) return EXIT_FAILED;
-    services.levels = lod_input_levels(&arguments->lod);
-    const int exit_status = front(&job);
+    const bool made = window_services_make(&services, view, &arguments->look, &look, &job.options.services);
+    const int exit_status = made ? front(&job) : EXIT_FAILED;
     window_services_free(&services);
     return exit_status;
 }
@@ -100,10 +100,9 @@ static int start_window(const common_arguments *common) {
 static int run(const void *data) {
     const window_arguments *arguments = data;
     const bool headless = arguments->script_path && !arguments->window;
-    return headless ? window_run(data, front_script_run) : start_window(&arguments->view.common);
+    return headless ? window_run(data, front_script_run) : start_window(&arguments->frames.view.common);
 }
 
-static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
 static const option_group window_options = OPTION_GROUP("Window", window_table);
 const cli_command view_command = {
     .name = "view",
@@ -118,10 +117,10 @@ const cli_command view_command = {
         "Ctrl-C copies. No graphics card is needed.",
     .examples = "ewa view scan.ply\n"
                 "ewa view scan.ply volume.nrrd --view iso\n"
+                "ewa view survey.laz --color-by classification --color-bar\n"
                 "ewa view scan.ply --script session.txt --timings\n",
     .high_operands = VIEWER_MAX_ITEMS,
-    .groups = (const option_group *const[]){&window_options, &cloud_input_options, &view_options,
-                                            &lod_options, NULL},
+    .groups = (const option_group *const[]){&window_options, &cloud_input_options, &view_options, LOOK_GROUPS, NULL},
     .arguments_bytes = sizeof(window_arguments),
     .set_defaults = set_defaults,
     .check = check,

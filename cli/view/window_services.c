@@ -129,13 +129,19 @@ static ewa_asset_options load_options(window_services *own, const ewa_asset_opti
     options.reader = program.reader;
     options.reader_user = program.reader_user;
     if (!options.filter) options.filter = program.filter;
+    // As scene files are opened by a command: they say more than it does of one file.
+    ewa_asset_options look = options;
+    look_set_asset_options(own->look, &look);
+    if (options.levels == EWA_OCTREE_AUTO) options.levels = look.levels;
+    if (!options.gaussians_as_surfels) options.gaussians_as_surfels = look.gaussians_as_surfels;
+    options.cutoff = look.cutoff;
+    options.reach_steps = look.reach_steps;
     return options;
 }
 
 static bool load(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset) {
     window_services *own = user;
     ewa_asset_options options = load_options(own, said);
-    if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
     options.voxel_level_minimum = VIEWER_VOXEL_LEVELS;
     options.gaussian_levels = true;
     options.own_context = true;
@@ -275,9 +281,10 @@ static bool interrupted(void *user) {
     return session_interrupted();
 }
 
-bool window_services_make(window_services *own, const view_arguments *view, viewer_services *services) {
+bool window_services_make(window_services *own, const view_arguments *view, const look_arguments *arguments, viewer_look *look,
+                          viewer_services *services) {
     const common_arguments *common = &view->common;
-    *own = (window_services){.view = view, .thread_count = (uint32_t)common->threads};
+    *own = (window_services){.view = view, .look = arguments, .thread_count = (uint32_t)common->threads};
     *services = (viewer_services){.user = own,
                                   .context = context,
                                   .load = load,
@@ -298,10 +305,22 @@ bool window_services_make(window_services *own, const view_arguments *view, view
                                  .untrusted = own->session.untrusted,
                                  .quiet = common->quiet,
                                  .started_s = clock_now_s()};
+    if (!light_load(&own->session, &arguments->light, &own->lit_by)) return false;
+    own->session.subject = NULL;
+    viewer_look_init(look);
+    look->scene = look_scene_options(arguments, &own->lit_by);
+    look->furniture.title = arguments->furniture.title;
+    look->furniture.unit = arguments->furniture.unit;
+    look->furniture.axes = arguments->furniture.axes;
+    look->furniture.scale_bar = arguments->furniture.scale_bar;
+    look->furniture.color_bar = arguments->furniture.color_bar;
+    scene_input_coloring(&arguments->coloring, &look->coloring);
+    look->transfer = arguments->transfer;
     return true;
 }
 
 void window_services_free(window_services *own) {
+    light_free(&own->lit_by);
     ewa_context_destroy(&own->loading.context);
     session_end(&own->session, EXIT_DONE);
 }

@@ -5,6 +5,7 @@
 #ifndef EWA_CLI_VIEW_WINDOW_SERVICES_H
 #define EWA_CLI_VIEW_WINDOW_SERVICES_H
 
+#include "cli/render/look.h"
 #include "cli/render/video.h"
 #include "cli/render/view.h"
 #include "viewer/viewer.h"
@@ -12,7 +13,8 @@
 /// What the services work with; it stays as long as the viewer.
 typedef struct window_services {
     const view_arguments *view; ///< the camera's options
-    ewa_octree_levels levels;
+    const look_arguments *look;
+    light_objects lit_by;
     uint32_t thread_count;
     cli_session session;       ///< of the thread that places cameras
     cli_session loading;       ///< of the thread that loads and makes scenes
@@ -23,8 +25,10 @@ typedef struct window_services {
     cli_video video; ///< else
 } window_services;
 
-/// Makes the services; free them after the viewer. False after reporting.
-bool window_services_make(window_services *own, const view_arguments *view, viewer_services *services);
+/// Makes the services, and how things are shown at first; free the services after the viewer, also when this returns false, after
+/// reporting. The arguments stay as long.
+bool window_services_make(window_services *own, const view_arguments *view, const look_arguments *arguments, viewer_look *look,
+                          viewer_services *services);
 void window_services_free(window_services *own);
 
 #endif

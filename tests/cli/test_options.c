@@ -394,6 +394,25 @@ TEST(test_together) {
     assert_true(pairs > 40 && needs > 20);
 }
 
+/// What says how a scene is shown is said to the window as to the picture, by the same rows.
+TEST(test_look_is_shared) {
+    static const char *const of_pictures[] = {
+        "output", "aov", "save-camera", "save-scene", "stats", "panorama", "panorama-fov", "turntable", "path", "frames",
+        "loop", "skip-existing", "fps", "quality", "outlines", "backend"};
+    const cli_command *render = command_find("render"), *view = command_find("view");
+    const cli_option *option, *other;
+    size_t shared = 0, alone = 0;
+    for (size_t i = 0; (option = options_at(render, i)); i++) {
+        bool of_picture = false, taken = false;
+        for (size_t k = 0; k < sizeof of_pictures / sizeof of_pictures[0]; k++)
+            of_picture = of_picture || strcmp(option->key, of_pictures[k]) == 0;
+        for (size_t k = 0; (other = options_at(view, k)) && !taken; k++) taken = other == option;
+        if (taken == of_picture) fail_msg("--%s is taken by view: %d", option->key, taken);
+        *(taken ? &shared : &alone) += 1;
+    }
+    assert_true(shared > 70 && alone == sizeof of_pictures / sizeof of_pictures[0]);
+}
+
 TEST(test_nearest) {
     static const char *const names[] = {"render", "info", "convert"};
     assert_string_equal(options_nearest("rendr", 3, names), "render");

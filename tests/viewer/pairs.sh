@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # A picture of the window that rests is what ewa render makes of the saved scene, byte for byte, of every pair of kinds, two of
-# one kind among them: pairs.sh EWA FOLDER
+# one kind among them; and with the same options of the look, what ewa render draws: pairs.sh EWA FOLDER
 set -eu
 ewa=$1
 rm -rf "$2"
@@ -52,4 +52,25 @@ for pair in $pairs; do
 done
 [ $count = 36 ] || fail "$count pairs"
 ! cmp -s points.ply-scan.las.png points.ply-volume.nrrd.png || fail "all pictures are the same"
+
+# How things are shown is said to both alike.
+printf 'settle\ndo shot look.png\n' >look.txt
+look() {
+    "$ewa" view $1 --size 96x72 --script look.txt -q >/dev/null || fail "view $1 ends with $?"
+    "$ewa" render $1 --size 96x72 -o drawn.png -q
+    cmp look.png drawn.png || fail "the look of $1 differs"
+    "$ewa" render ${1%% *} --size 96x72 -o plain.png -q
+    ! cmp -s plain.png drawn.png || fail "$1 is drawn as without options"
+}
+look "points.ply --color-by z --colormap turbo --range 10%,90% --background 0.1,0.2,0.3 --radius-scale 1.2"
+look "scan.las --edl 1 --kernel affine --light 1,1,1 --light 0,0,0,0.5,0,0 --ambient 0.3 --clip-plane 1,0,0,0.1"
+look "mesh.obj --shading none --color-by y --opacity 0.5 --layers exact --clip-plane 0,0,-1,0.5 --clip-plane 1,1,0,0.5 --tau 0.3"
+look "levels.copc.laz --levels always --color-by z --lod-spacing 4 --cull back"
+look "gaussians.ply --projection exact --gaussian-display points --background black"
+look "gaussians.ply --surface --color-by x --close-gaps off --prefilter 1"
+look "volume.nrrd --transfer fog --opacity-scale 3 --shading phong"
+said=$("$ewa" view points.ply --color-by warmth --size 96x72 --script look.txt 2>&1 >/dev/null)
+case $said in *"no attribute 'warmth'"*) ;; *) fail "an attribute that is not there: $said" ;; esac
+"$ewa" render points.ply --size 96x72 -o drawn.png -q
+cmp look.png drawn.png || fail "what has not the attribute is not as without --color-by"
 echo "$count pairs"

@@ -235,16 +235,20 @@ static int run_script(const char *name, uint32_t cpu_mask, int64_t threads) {
     snprintf(path, sizeof path, "%s/%.255s", scripts_folder, name);
     view_arguments view = {.common = {.operands = no_paths, .threads = threads, .quiet = true}};
     view_set_defaults(&view);
+    look_arguments arguments;
+    look_set_defaults(memset(&arguments, 0, sizeof arguments));
+    arguments.lod.levels = EWA_OCTREE_ALWAYS;
     window_services services;
+    viewer_look look;
     front_job job = {.script_path = path,
                      .options = {.thread_count = (uint32_t)threads,
                                  .cpu_mask = cpu_mask,
                                  .width = WIDTH,
                                  .height = HEIGHT,
                                  .scale = 1,
+                                 .look = &look,
                                  .waits = true}};
-    assert_true(window_services_make(&services, &view, &job.options.services));
-    services.levels = EWA_OCTREE_ALWAYS;
+    assert_true(window_services_make(&services, &view, &arguments, &look, &job.options.services));
     const int exit_status = FRONT_RUN(&job);
     window_services_free(&services);
     return exit_status;
