@@ -256,6 +256,18 @@ void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(print
 void viewer_note(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+// colorings.c
+/// Sets a wish to what a scene file or the program says of colours.
+void colorings_take(const ewa_coloring *coloring, viewer_coloring *wish);
+/// Sets how an item is shown to what a scene file says; its colours stay where that says nothing of them.
+void colorings_take_instance(const ewa_instance *instance, scene_item *item);
+/// What of an item the scene shows.
+ewa_instance colorings_instance(const scene_item *item);
+/// Fills in what the colours of an item mean.
+void colorings_take_legend(const ewa_legend *legend, viewer_coloring *coloring);
+/// Whether an item is coloured as the program says for all, which may not fit it.
+bool colorings_is_program(const viewer *v, const viewer_coloring *wish);
+
 // items.c
 bool items_open(viewer *v, const char *path);
 bool items_close(viewer *v, size_t index);

@@ -32,26 +32,6 @@ static void wait_if_asked(viewer *v) {
     }
 }
 
-static void take_coloring(const ewa_coloring *coloring, viewer_coloring *wish) {
-    memcpy(wish->attribute, coloring->attribute, sizeof wish->attribute);
-    wish->map = coloring->map;
-    wish->ranged = coloring->ranged;
-    memcpy(wish->range, coloring->range, sizeof wish->range);
-    memcpy(wish->percent, coloring->percent, sizeof wish->percent);
-    wish->tinted = coloring->tinted;
-    memcpy(wish->tint, coloring->tint, sizeof wish->tint);
-}
-
-/// Sets how an item is shown to what a scene file says, and where that says nothing of its colours, to what the program does.
-static void take_instance(const ewa_instance *instance, scene_item *item) {
-    const ewa_coloring *said = &instance->coloring;
-    item->visible = instance->visible;
-    item->material = instance->material;
-    if (said->tinted || said->attribute[0]) take_coloring(said, &item->wish);
-    item->wish.alpha = instance->opacity;
-    item->wish.radius_scale = instance->radius_scale;
-}
-
 /// Orders a file; `file` (may be NULL) is the scene file that names it, as `entry`.
 static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint32_t entry) {
     if (v->item_count == VIEWER_MAX_ITEMS) {
@@ -72,11 +52,11 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     item->file = file;
     item->entry = entry;
     viewer_coloring_init(&item->wish);
-    take_coloring(&v->coloring, &item->wish);
+    colorings_take(&v->coloring, &item->wish);
     snprintf(item->load.transfer, sizeof item->load.transfer, "%s", v->transfer);
     ewa_scene_entry said;
     if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) {
-        take_instance(&said.instance, item);
+        colorings_take_instance(&said.instance, item);
         memcpy(usual.to_world, said.asset.to_world, sizeof usual.to_world);
         if (said.asset.transfer)
             snprintf(item->load.transfer, sizeof item->load.transfer, "%s", said.asset.transfer);
@@ -170,29 +150,6 @@ size_t items_find_instance(const viewer *v, uint32_t instance) {
     return SIZE_MAX;
 }
 
-/// What of an item the scene shows.
-static ewa_instance instance_of(const scene_item *item) {
-    ewa_instance instance;
-    ewa_asset_info info;
-    ewa_instance_init(&instance, sizeof instance);
-    ewa_asset_describe(item->asset, &info);
-    instance.visible = item->visible;
-    if (!info.colorable) return instance;
-    const viewer_coloring *wish = &item->wish;
-    memcpy(instance.coloring.attribute, wish->attribute, sizeof instance.coloring.attribute);
-    instance.coloring.map = wish->map;
-    instance.coloring.ranged = wish->ranged;
-    memcpy(instance.coloring.percent, wish->percent, sizeof instance.coloring.percent);
-    memcpy(instance.coloring.range, wish->range, sizeof instance.coloring.range);
-    instance.coloring.tinted = wish->tinted;
-    memcpy(instance.coloring.tint, wish->tint, sizeof instance.coloring.tint);
-    if (!info.changeable) return instance;
-    instance.material = item->material;
-    instance.opacity = wish->alpha;
-    instance.radius_scale = wish->radius_scale;
-    return instance;
-}
-
 static bool is_colorable(const ewa_asset *asset) {
     ewa_asset_info info;
     ewa_asset_describe(asset, &info);
@@ -208,7 +165,7 @@ static void items_reorder(viewer *v) {
         if (!item->asset) continue;
         of.items[of.count] = item->id;
         of.assets[of.count] = ewa_asset_retain(item->asset);
-        of.instances[of.count] = instance_of(item);
+        of.instances[of.count] = colorings_instance(item);
         of.colorings[of.count++] = item->wish;
     }
     if (!loader_make(v->loader, &of)) viewer_tell(v, "out of memory for the scene");
@@ -444,22 +401,6 @@ static void take_asset(viewer *v, loader_note *note) {
     items_reorder(v);
 }
 
-/// Fills in what the colours of an item mean.
-static void take_legend(const ewa_legend *legend, viewer_coloring *coloring) {
-    coloring->class_count = 0;
-    if (!legend) return;
-    memcpy(coloring->attribute, legend->attribute, sizeof coloring->attribute);
-    memcpy(coloring->range, legend->range, sizeof coloring->range);
-    coloring->length = legend->length;
-    coloring->percent[0] = coloring->percent[1] = false;
-    for (uint32_t k = 0; k < legend->category_count && k < VIEWER_MAX_CLASSES; k++) {
-        viewer_class *to = &coloring->classes[coloring->class_count++];
-        to->value = legend->categories[k].value;
-        memcpy(to->srgb, legend->categories[k].srgb, sizeof to->srgb);
-        snprintf(to->name, sizeof to->name, "%s", legend->categories[k].name ? legend->categories[k].name : "");
-    }
-}
-
 static void take_scene(viewer *v, loader_note *note) {
     bool more = false;
     v->scene_count = note->of.count;
@@ -470,7 +411,7 @@ static void take_scene(viewer *v, loader_note *note) {
         more = more || !item->loaded;
         item->loaded = true;
         item->coloring = note->of.colorings[i];
-        take_legend(ewa_scene_legend(note->scene, i), &item->coloring);
+        colorings_take_legend(ewa_scene_legend(note->scene, i), &item->coloring);
         ewa_asset_release(&item->preview);
     }
     show(v, note->scene);
@@ -496,11 +437,6 @@ static void take_photos(viewer *v, const loader_note *note) {
     photos_take(v, (size_t)(item - v->items), &note->photos, &note->found);
 }
 
-/// Whether an item is coloured as the program says for all, which may not fit it.
-static bool is_program_coloring(const viewer *v, const viewer_coloring *wish) {
-    return wish->attribute[0] && strcmp(wish->attribute, v->coloring.attribute) == 0;
-}
-
 /// What came to nothing goes, or is again as it was; what cannot be coloured as the program says for all has its own colours.
 static void take_failure(viewer *v, const loader_note *note) {
     bool gone = false, again = false;
@@ -511,7 +447,7 @@ static void take_failure(viewer *v, const loader_note *note) {
             item->wish = item->coloring;
             item->load = item->shown_load;
             item->counts = item->photographed = false;
-        } else if (!note->item && item->asset && !item->named && is_program_coloring(v, &item->wish)) {
+        } else if (!note->item && item->asset && !item->named && colorings_is_program(v, &item->wish)) {
             viewer_coloring_init(&item->wish);
             again = true;
         } else if (note->item || item->asset) {
