@@ -22,6 +22,10 @@ static int unknown_command(const char *word) {
                 word, word, word);
         return EXIT_USAGE;
     }
+    if (stat(word, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+        fprintf(stderr, "ewa: '%s': a folder, no command; to draw the files in it: ewa render '%s'/* -o picture.png\n", word, word);
+        return EXIT_USAGE;
+    }
     const char *names[MAX_COMMANDS + 2];
     size_t count = 0;
     for (; count < all_commands_count && count < MAX_COMMANDS; count++)

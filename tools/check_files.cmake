@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Fails for sources without the two SPDX lines and a head comment, and for sources of more than 1,500 lines; names
-# those of more than 600. Fails for packages of others and for files of more than 1 MiB beside the sources.
+# those of more than 600. Fails where the library writes numbers as the locale has them. Fails for packages of others and for files of more than 1 MiB beside the sources.
 #
 # cmake -DROOT=folder -P check_files.cmake
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/src/*.cpp" "${ROOT}/cli/*.[ch]"
@@ -13,6 +13,9 @@ foreach(path IN LISTS files)
   file(READ "${ROOT}/${path}" text)
   if(NOT text MATCHES "^// SPDX-FileCopyrightText: [^\n]*\n// SPDX-License-Identifier: MIT\n//\n// ")
     string(APPEND wrong "${path}: no SPDX lines followed by a head comment\n")
+  endif()
+  if(path MATCHES "^src/" AND NOT path MATCHES "^src/base/format[.]" AND text MATCHES "vsnprintf\\(|[^_]snprintf\\([^;]*%[0-9.]*[gefGEF][^a-z]")
+    string(APPEND wrong "${path}: numbers by snprintf(), which writes a comma in some locales; ewa_format() does not\n")
   endif()
   string(REGEX REPLACE "[^\n]+" "" line_feeds "${text}")
   string(LENGTH "${line_feeds}" lines)

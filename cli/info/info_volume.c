@@ -3,6 +3,7 @@
 //
 // What a volume file holds, for ewa info.
 #include "cli/info/info_volume.h"
+#include "cli/info/info_facts.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -42,8 +43,19 @@ static ewa_status choose_transfer(const ewa_volume *volume, const ewa_volume_fac
                                                            : EWA_OK;
 }
 
+/// Finds what is up, as a picture of the volume alone has it. False after reporting.
+static bool find_upright(cli_session *session, const char *path, const ewa_volume *volume, const ewa_transfer *transfer,
+                         ewa_upright *upright) {
+    const ewa_asset_source source = {.name = path, .volume = volume, .transfer = transfer};
+    ewa_asset *asset = NULL;
+    ewa_status status = ewa_asset_create(session->context, &source, NULL, &asset);
+    if (status == EWA_OK) status = ewa_asset_find_upright(asset, upright);
+    ewa_asset_release(&asset);
+    return session_passed(session, status);
+}
+
 static void print_text(const char *path, const ewa_volume *volume, const ewa_volume_facts *facts,
-                       const ewa_transfer *transfer) {
+                       const ewa_transfer *transfer, const ewa_upright *upright) {
     const double *low = facts->low_world, *high = facts->high_world, *s = facts->spacing_world;
     printf("%s\n", path);
     printf("  volume      %u x %u x %u voxels of %s\n", volume->dims[0], volume->dims[1], volume->dims[2],
@@ -57,6 +69,7 @@ static void print_text(const char *path, const ewa_volume *volume, const ewa_vol
         direction(volume, facts, axis, d);
         printf("  axis %c      %.6g %.6g %.6g\n", "ijk"[axis], d[0], d[1], d[2]);
     }
+    if (transfer->point_count) info_upright_print(upright);
     printf("  values      ");
     if (facts->finite_count)
         printf("%.6g .. %.6g, mean %.6g\n", facts->low, facts->high, facts->mean);
@@ -102,7 +115,7 @@ static void print_transfer(json_writer *json, const ewa_transfer *transfer) {
 }
 
 static void print_json(json_writer *json, const char *path, const ewa_volume *volume,
-                       const ewa_volume_facts *facts, const ewa_transfer *transfer) {
+                       const ewa_volume_facts *facts, const ewa_transfer *transfer, const ewa_upright *upright) {
     const double dims[3] = {volume->dims[0], volume->dims[1], volume->dims[2]};
     json_object(json, NULL);
     json_text(json, "file", path);
@@ -114,6 +127,7 @@ static void print_json(json_writer *json, const char *path, const ewa_volume *vo
     json_vector(json, "high", 3, facts->high_world);
     json_count(json, "voxels", facts->voxel_count);
     json_count(json, "finite_voxels", facts->finite_count);
+    if (transfer->point_count) info_upright_write(json, upright);
     json_object(json, "values");
     json_number(json, "low", facts->low);
     json_number(json, "high", facts->high);
@@ -139,12 +153,13 @@ bool info_volume(cli_session *session, const volume_input_arguments *arguments, 
     if (!volume_input_load(session, arguments, path, &volume)) return false;
     ewa_status status = ewa_volume_measure(&volume, &facts);
     if (status == EWA_OK) status = choose_transfer(&volume, &facts, &transfer);
-    if (status != EWA_OK)
-        session_failed(session, status);
-    else if (json)
-        print_json(json, path, &volume, &facts, &transfer);
-    else
-        print_text(path, &volume, &facts, &transfer);
+    ewa_upright upright;
+    bool done = session_passed(session, status);
+    if (done && transfer.point_count) done = find_upright(session, path, &volume, &transfer, &upright);
+    if (done && json)
+        print_json(json, path, &volume, &facts, &transfer, &upright);
+    else if (done)
+        print_text(path, &volume, &facts, &transfer, &upright);
     ewa_volume_free(&volume);
-    return status == EWA_OK;
+    return done;
 }

@@ -3,6 +3,7 @@
 //
 // Memory of a context, all of it counted against one limit: blocks, buffers that grow, and what libraries take by themselves.
 #include "base/context.h"
+#include "base/format.h"
 #include "base/unpacking.h"
 
 #include <stdarg.h>
@@ -38,7 +39,7 @@ void ewa_memory_give(ewa_context *context, uint64_t bytes) {
 
 static ewa_status refuse(ewa_context *context, uint64_t bytes, const char *format, va_list arguments) {
     char what[WHAT_BYTES];
-    vsnprintf(what, sizeof what, format, arguments);
+    ewa_format_list(what, sizeof what, format, arguments);
     return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu bytes are needed, %llu of max_memory_bytes %llu are left", what,
                     (unsigned long long)bytes, (unsigned long long)ewa_memory_left(context),
                     (unsigned long long)context->options.limits.max_memory_bytes);
@@ -71,7 +72,7 @@ ewa_status ewa_memory_check_unpacked(ewa_context *context, uint64_t packed_bytes
     va_list arguments;
     va_start(arguments, format);
     char what[WHAT_BYTES];
-    vsnprintf(what, sizeof what, format, arguments);
+    ewa_format_list(what, sizeof what, format, arguments);
     va_end(arguments);
     if (!fits) return ewa_memory_check(context, bytes, "%s", what);
     return ewa_fail(context, EWA_ERROR_LIMIT,

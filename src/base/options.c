@@ -4,6 +4,7 @@
 // Structs of options by their tables: defaults, sizes, ranges.
 #include "base/options.h"
 #include "base/base.h"
+#include "base/format.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,9 +91,7 @@ bool ewa_option_allows(const ewa_option *option, double value) {
 
 /// Writes a number with 10 digits at most, "1e6" for a million times a million.
 static void format_number(double value, char text[NUMBER_BYTES]) {
-    snprintf(text, NUMBER_BYTES, "%.10g", value);
-    char *comma = strchr(text, ','); // where a program has chosen a locale
-    if (comma) *comma = '.';
+    ewa_format(text, NUMBER_BYTES, "%.10g", value);
     char *exponent = strpbrk(text, "e");
     if (!exponent) return;
     exponent += exponent[1] == '-' ? 2 : 1;

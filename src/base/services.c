@@ -3,6 +3,7 @@
 //
 // What a context does for the library: messages, progress, work for its threads.
 #include "base/context.h"
+#include "base/format.h"
 #include "base/platform.h"
 
 #include <stdarg.h>
@@ -22,7 +23,7 @@ static void report(ewa_context *context, ewa_severity severity, const char *form
     const ewa_context_options *options = &context->options;
     if (!options->message || severity > options->message_level) return;
     char text[MESSAGE_BYTES];
-    vsnprintf(text, sizeof text, format, arguments);
+    ewa_format_list(text, sizeof text, format, arguments);
     // Names of files and words in them may be anything; a message is one line.
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 127) *c = '?';

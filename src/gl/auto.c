@@ -5,6 +5,7 @@
 // the others. They draw the same bytes, so that nobody sees which it was. Whatever the device fails to draw,
 // the processor draws.
 #include "base/context.h"
+#include "base/format.h"
 #include "gl/backends.h"
 #include "gl/compute.h"
 #include "gl/tuning.h"
@@ -137,7 +138,7 @@ static void learn(auto_state *both, double took_s) {
     *(both->drew_by_gl ? &both->gl_s : &both->cpu_s) = took_s;
     if (++both->step != DECIDED) return;
     both->by_gl = both->gl_s < both->cpu_s || ewa_gl_tuning_is("auto", "gl");
-    snprintf(both->remark, sizeof both->remark, "frames took %.3g ms by the CPU, %.3g ms by the device",
+    ewa_format(both->remark, sizeof both->remark, "frames took %.3g ms by the CPU, %.3g ms by the device",
              1e3 * both->cpu_s, 1e3 * both->gl_s);
 }
 

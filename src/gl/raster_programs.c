@@ -6,6 +6,7 @@
 #include "gl/program.h"
 #include "gl/raster_targets.h"
 #include "gl/shaders.h"
+#include "base/format.h"
 #include "image/environment.h"
 #include "surface/packet.h"
 #include "surface/semantics.h"
@@ -46,7 +47,7 @@ static size_t write_head(char *head) {
         "#version 330 core\n#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MAX_MATERIALS %d\n",
         EWA_MAX_LIGHTS, EWA_MAX_ENVIRONMENT_LEVELS, EWA_MAX_MATERIALS);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
-        at += (size_t)snprintf(head + at, HEAD_BYTES - at, "const float %s = %.9e;\n", constants[i].name,
+        at += (size_t)ewa_format(head + at, HEAD_BYTES - at, "const float %s = %.9e;\n", constants[i].name,
                                constants[i].value);
     return at;
 }

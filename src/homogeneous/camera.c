@@ -5,6 +5,7 @@
 // that every machine computes the same camera.
 #include "homogeneous/camera.h"
 #include "base/base.h"
+#include "base/format.h"
 #include "homogeneous/vec.h"
 #include "math/angle.h"
 
@@ -133,7 +134,7 @@ static bool complain(char text[EWA_CAMERA_PROBLEM_BYTES], const char *format, ..
 static bool complain(char text[EWA_CAMERA_PROBLEM_BYTES], const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, EWA_CAMERA_PROBLEM_BYTES, format, arguments);
+    ewa_format_list(text, EWA_CAMERA_PROBLEM_BYTES, format, arguments);
     va_end(arguments);
     return true;
 }

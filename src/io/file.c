@@ -38,7 +38,12 @@ static ewa_status fail_errno(ewa_context *context, const char *path, int error) 
     if (error == ENOLINK)
         return ewa_fail(context, EWA_ERROR_IO, "%s: is a link to a file that is not there", path);
     ewa_platform_describe(error, reason, sizeof reason);
-    return ewa_fail(context, EWA_ERROR_IO, "%s: %s", path, reason);
+    const char *advice = "";
+    if (error == ENOENT && strstr(path, "://") && strncmp(path, "http", 4) != 0)
+        advice = "; of addresses, those with http:// and https:// are read";
+    else if (error == ENOENT && strpbrk(path, "*?"))
+        advice = "; * and ? stand for other letters where a shell expands them: not within quotes";
+    return ewa_fail(context, EWA_ERROR_IO, "%s: %s%s", path, reason, advice);
 }
 
 /// Reads a stream to its end into memory of the allocator that doubles as it fills.

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-enum { LOOKED_BYTES = 4096, DICOM_AT = 128 };
+enum { LOOKED_BYTES = 4096, DICOM_AT = 128, TAR_AT = 257 };
 
 #define EXPORT_MESH(format) format ", which is not read: exported as glTF or OBJ it is"
 
@@ -65,6 +65,7 @@ const char *ewa_foreign_kind(const uint8_t *bytes, size_t size_bytes) {
     }
     if (looked >= DICOM_AT + 4 && memcmp(text + DICOM_AT, "DICM", 4) == 0)
         return "DICOM, which is not read: a NIfTI file of its series is, as dcm2niix makes it";
+    if (looked >= TAR_AT + 5 && memcmp(text + TAR_AT, "ustar", 5) == 0) return "an archive (tar): unpack it, and name the files in it";
     const ewa_text word = first_word(text, looked);
     if (ewa_text_is_any_case(word, "newmtl")) return "the materials of a mesh (MTL): name the OBJ that uses them";
     const bool json = word.length && (word.chars[0] == '{' || word.chars[0] == '[');

@@ -3,6 +3,7 @@
 //
 // Options from text and as text.
 #include "base/base.h"
+#include "base/format.h"
 #include "base/options.h"
 #include "io/number.h"
 #include "io/text.h"
@@ -58,9 +59,7 @@ static ewa_status read_value(const ewa_option *option, const char **text, option
         return ewa_text_wrong(problem, "'%.80s' is not a%s number", *text, whole ? " whole" : "");
     if (!ewa_option_allows(option, value->number)) {
         char number[32];
-        snprintf(number, sizeof number, "%g", value->number);
-        char *comma = strchr(number, ','); // where a program has chosen a locale
-        if (comma) *comma = '.';
+        ewa_format(number, sizeof number, "%g", value->number);
         return whole ? ewa_text_wrong(problem, "%" PRId64 " is outside %s", value->integer, range)
                      : ewa_text_wrong(problem, "%s is outside %s", number, range);
     }

@@ -16,6 +16,18 @@ static inline uint32_t ewa_bytes_u32(const uint8_t *bytes) {
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
+/// How many bytes of UTF-8's byte order mark a text begins with: 0 or 3.
+static inline uint32_t ewa_bytes_mark(const void *text, uint64_t size_bytes) {
+    return size_bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+/// Whether a text begins with a word, perhaps behind a byte order mark.
+static inline bool ewa_bytes_begin(const void *text, uint64_t size_bytes, const char *word) {
+    const uint32_t mark = ewa_bytes_mark(text, size_bytes);
+    const size_t length = strlen(word);
+    return size_bytes >= mark + length && memcmp((const char *)text + mark, word, length) == 0;
+}
+
 typedef struct ewa_reader {
     const uint8_t *bytes;
     uint64_t size_bytes;

@@ -5,6 +5,7 @@
 #include "io/scene_text.h"
 #include "base/base.h"
 #include "io/number.h"
+#include "io/reader.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +17,7 @@ static const char *const groups[] = {NULL, "surfels", "lod", "render", "gaussian
 bool ewa_scene_text_probe(const uint8_t *bytes, size_t size_bytes) {
     static const char first[] = "{\"ewa_scene\"";
     size_t have = 0;
-    for (size_t i = size_bytes >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; i < size_bytes && have < sizeof first - 1; i++) {
+    for (size_t i = ewa_bytes_mark(bytes, size_bytes); i < size_bytes && have < sizeof first - 1; i++) {
         const uint8_t c = bytes[i];
         if (have < 2 && (c == ' ' || c == '\t' || c == '\r' || c == '\n')) continue;
         if (c != (uint8_t)first[have++]) return false;

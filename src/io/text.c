@@ -6,7 +6,9 @@
 // UTF-16 by: The Unicode Standard 15.0, section 3.9, table 3-5; UTF-8 by table 3-7 there.
 #include "io/text.h"
 #include "base/base.h"
+#include "base/format.h"
 #include "io/number.h"
+#include "io/reader.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -15,7 +17,7 @@
 ewa_status ewa_text_wrong(char problem[EWA_OPTION_TEXT_BYTES], const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    if (problem) vsnprintf(problem, EWA_OPTION_TEXT_BYTES, format, arguments);
+    if (problem) ewa_format_list(problem, EWA_OPTION_TEXT_BYTES, format, arguments);
     va_end(arguments);
     return EWA_ERROR_ARGUMENT;
 }
@@ -126,7 +128,7 @@ ewa_status ewa_text_open(ewa_context *context, const char *name, const uint8_t *
     const bool big = size_bytes >= 2 && bytes[0] == 0xfe && bytes[1] == 0xff,
                little = size_bytes >= 2 && bytes[0] == 0xff && bytes[1] == 0xfe;
     if (!big && !little) {
-        const size_t mark = size_bytes >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+        const size_t mark = ewa_bytes_mark(bytes, size_bytes);
         const char *text = size_bytes ? (const char *)bytes : "";
         *cursor = (ewa_cursor){text + mark, text + size_bytes, 1};
         return EWA_OK;

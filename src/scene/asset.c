@@ -239,7 +239,7 @@ static ewa_status find_kind(const ewa_asset_job *job, const char *path, ewa_asse
     if (ewa_platform_stat(path, &facts) && facts.folder && !ewa_lod_probe(context, path)) {
         *kind = EWA_ASSET_GAUSSIANS;
         if (holds_gaussians(context, path)) return EWA_OK;
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it", path);
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it (%s/*)", path, path);
     }
     *kind = EWA_ASSET_VOLUME;
     if (ewa_volume_is_file(context, path)) return EWA_OK;

@@ -280,7 +280,11 @@ TEST(test_wording) {
     run_done("mkdir -p folder sog && echo '{}' >sog/meta.json");
     static const char *const folders[] = {"folder", "sog"};
     for (size_t i = 0; i < 2; i++)
-        run_fails(1, "a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it", "ewa render %s -o a.png", folders[i]);
+        run_fails(1, "a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it (", "ewa render %s -o a.png", folders[i]);
+    run_fails(2, "'sog': a folder, no command; to draw the files in it: ewa render 'sog'/* -o picture.png", "ewa sog");
+    run_fails(1, "No such file or directory; * and ? stand for other letters where a shell expands them", "ewa render 'folder/*.ply' -o a.png");
+    run_fails(1, "No such file or directory; of addresses, those with http:// and https:// are read", "ewa render s3://a/b.ply -o a.png");
+    run_fails(1, "t.tar: an archive (tar): unpack it", "tar cf t.tar sog && ewa info t.tar");
     scratch_text("cells.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n"
                               "CELL_DATA 1\nSCALARS id int\nLOOKUP_TABLE default\n7\nFIELD f 5\na 1 1 int\n1\nb 1 1 int\n1\nc 1 1 int\n1\nd 1 1 int\n1\n"
                               "e 1 1 int\n1\n");

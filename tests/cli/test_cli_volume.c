@@ -43,9 +43,12 @@ TEST(test_info) {
     assert_non_null(strstr(last_run.out, "values      0 .. 0.99"));
     // What would be seen, and the same in the words of a file of --transfer.
     assert_non_null(strstr(last_run.out, "  transfer    "));
+    // And as which way is up, with the reason, as of points.
+    assert_non_null(strstr(last_run.out, "  up          z ("));
     assert_int_equal(run("ewa info --json ball.nrrd box.nrrd"), 0);
     assert_non_null(strstr(last_run.out, "\"transfer\""));
     assert_non_null(strstr(last_run.out, "\"extinction\""));
+    assert_non_null(strstr(last_run.out, "\"up_because\""));
     run_done("ewa info --json ball.nrrd | sed -n '/\"transfer\"/,/^      }/p' | sed '1s/.*/{/' > t.json");
     run_done("ewa volume ball.nrrd -o a.png --size 32x32 --transfer t.json && ewa volume ball.nrrd -o b.png "
              "--size 32x32");

@@ -259,6 +259,9 @@ CASE(test_text_keeps_digits) {
     cloud_expect_world(cloud, 0, (const double[]){289814.15, 4320978.61, 170.76});
     cloud_expect_world(cloud, 1, (const double[]){289814.64, 4320978.84, 170.76});
     ewa_cloud_destroy(&cloud);
+    cloud = load_text("\xef\xbb\xbf" XYZ("1") "DATA ascii\n1 2 3\n"); // a byte order mark
+    cloud_expect(cloud, "position", EWA_F32, 3, 0, (const double[]){1, 2, 3});
+    ewa_cloud_destroy(&cloud);
     cloud = load_text(XYZ("1") "DATA ascii\n0.0054215998 -1.5e-7 1e3\n"); // floats with all their digits
     cloud_expect(cloud, "position", EWA_F32, 3, 0,
                  (const double[]){(double)0.0054215998f, (double)-1.5e-7f, 1000});

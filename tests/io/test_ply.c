@@ -347,6 +347,7 @@ CASE(test_ascii_layouts) {
         {ASCII_HEADER(3) "1 2 3 4 5 6 7 8 9\n", true},
         {ASCII_HEADER(3) "1\n2\n3\n4\n5\n6\n7\n8\n9\n", true},
         {ASCII_HEADER(3) "1 2 3\n4 5\n6 7 8 9\n", true},
+        {"\xef\xbb\xbf" ASCII_HEADER(3) "1 2 3\n4 5 6\n7 8 9\n", false}, // a byte order mark
         {ASCII_HEADER(3) "+1 2.0 3e0\n.4e1 50e-1 6.\n0007 8 9 \n", false},
     };
     for (size_t i = 0; i < sizeof layouts / sizeof layouts[0]; i++) {

@@ -8,6 +8,7 @@
 #include "base/base.h"
 #include "io/cloud/height_grid.h"
 #include "io/cloud/text_table.h"
+#include "io/reader.h"
 #include "io/text.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ static int find_key(ewa_text word) {
 static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     (void)name;
     ewa_cursor cursor = {(const char *)bytes, (const char *)bytes + (size_bytes < 64 ? size_bytes : 64), 1};
-    if (size_bytes >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) cursor.at += 3;
+    cursor.at += ewa_bytes_mark(bytes, size_bytes);
     double value;
     const int key = find_key(ewa_cursor_any_word(&cursor));
     return (key == COLUMNS || key == ROWS) && ewa_text_number(ewa_cursor_any_word(&cursor), &value);

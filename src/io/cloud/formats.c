@@ -3,6 +3,7 @@
 //
 // The formats of point clouds, and what all their readers share.
 #include "base/base.h"
+#include "base/format.h"
 #include "base/options.h"
 #include "base/platform.h"
 #include "cloud/cloud.h"
@@ -65,7 +66,7 @@ ewa_status ewa_cloud_damage(const ewa_cloud_source *source, uint64_t lost_count,
     char text[512];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    ewa_format_list(text, sizeof text, format, arguments);
     va_end(arguments);
     if (!source->options->keep_going)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s (keep_going leaves out what is damaged)", text);

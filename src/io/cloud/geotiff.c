@@ -8,6 +8,7 @@
 #include "io/cloud/geotiff.h"
 
 #include "base/base.h"
+#include "base/format.h"
 #include "base/unpacking.h"
 
 #include <math.h>
@@ -84,7 +85,7 @@ static void unmap_bytes(thandle_t handle, void *bytes, toff_t size) { (void)hand
 static int keep_fault(TIFF *tiff, void *user, const char *module, const char *format, va_list arguments) {
     (void)tiff, (void)module;
     tiff_bytes *file = user;
-    vsnprintf(file->fault, sizeof file->fault, format, arguments);
+    ewa_format_list(file->fault, sizeof file->fault, format, arguments);
     return 1;
 }
 

@@ -5,6 +5,7 @@
 #include "io/cloud/height_grid.h"
 
 #include "base/base.h"
+#include "base/format.h"
 #include "io/cloud/text_table.h"
 #include "math/degree.h"
 
@@ -57,7 +58,7 @@ static ewa_status make_metres(const ewa_cloud_source *source, ewa_height_grid *g
     m[5] -= place[1];
     for (int i = 0; i < 6; i++) m[i] *= length_m[i / 3];
     char text[96];
-    snprintf(text, sizeof text, "longitude %.9g, latitude %.9g", place[0], place[1]);
+    ewa_format(text, sizeof text, "longitude %.9g, latitude %.9g", place[0], place[1]);
     ewa_report(source->context, EWA_SEVERITY_NOTE,
                "%s: degrees with heights in metres: x and y are metres east and north of %s", source->name, text);
     return ewa_cloud_set_note(prototype, "file.degrees", text, strlen(text));

@@ -4,6 +4,7 @@
 // The header of PCD files: lines of a word and what belongs to it, up to DATA.
 #include "base/base.h"
 #include "io/cloud/pcd.h"
+#include "io/reader.h"
 
 /// A header being read.
 typedef struct reading {
@@ -178,7 +179,7 @@ void ewa_pcd_lay_out(ewa_pcd_header *header) {
 
 ewa_status ewa_pcd_header_read(const ewa_cloud_source *source, ewa_pcd_header *header) {
     const char *start = (const char *)source->bytes;
-    reading r = {source, header, {start, start + source->size_bytes, 1}, false, false, false};
+    reading r = {source, header, {start + ewa_bytes_mark(start, source->size_bytes), start + source->size_bytes, 1}, false, false, false};
     *header = (ewa_pcd_header){.height = 1, .viewpoint = {0, 0, 0, 1, 0, 0, 0}};
     while (!r.done) {
         if (r.cursor.at == r.cursor.end)

@@ -5,6 +5,7 @@
 // been unpacked, text wave by wave. Points whose position is not finite, of which organised clouds have many,
 // are left out.
 #include "base/base.h"
+#include "base/format.h"
 #include "io/cloud/pcd.h"
 #include "io/reader.h"
 
@@ -49,7 +50,7 @@ static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     const size_t length = strlen(name);
     const ewa_text suffix = {name + (length < 4 ? 0 : length - 4), length < 4 ? 0 : 4};
     const uint64_t looked_at = size_bytes < PROBE_BYTES ? size_bytes : PROBE_BYTES;
-    return begins_as_header((const char *)bytes, (const char *)bytes + looked_at) ||
+    return begins_as_header((const char *)bytes + ewa_bytes_mark(bytes, looked_at), (const char *)bytes + looked_at) ||
            ewa_text_is_any_case(suffix, ".pcd");
 }
 
@@ -205,7 +206,7 @@ static ewa_status set_notes(const pcd_state *state, ewa_cloud *prototype) {
     static const double identity[7] = {0, 0, 0, 1, 0, 0, 0};
     if (memcmp(h->viewpoint, identity, sizeof identity) != 0) {
         const double *v = h->viewpoint;
-        length = snprintf(text, sizeof text, "%.17g %.17g %.17g", v[0], v[1], v[2]);
+        length = ewa_format(text, sizeof text, "%.17g %.17g %.17g", v[0], v[1], v[2]);
         EWA_TRY(ewa_cloud_set_note(prototype, "scanners", text, (size_t)length));
     }
     return EWA_OK;

@@ -4,6 +4,7 @@
 // PCD files out, binary or ascii. Colours of 8 bits are packed into one number, as the Point Cloud Library
 // has them; all other numbers keep their bits.
 #include "base/base.h"
+#include "base/format.h"
 #include "cloud/cloud.h"
 #include "io/cloud/pcd.h"
 #include "io/cloud/ply.h"
@@ -157,7 +158,7 @@ static void viewpoint(const ewa_cloud *cloud, char text[128]) {
         ewa_cursor cursor = {note, note + strlen(note), 1};
         if (ewa_cursor_numbers(&cursor, 3, place) != 3) memset(place, 0, sizeof place);
     }
-    snprintf(text, 128, "VIEWPOINT %.17g %.17g %.17g 1 0 0 0\n", place[0], place[1], place[2]);
+    ewa_format(text, 128, "VIEWPOINT %.17g %.17g %.17g 1 0 0 0\n", place[0], place[1], place[2]);
 }
 
 static ewa_status write_header(write_state *state) {

@@ -7,6 +7,7 @@
 // circulation have it: obj_info, blank lines, line ends of all three kinds, types with and without their size
 // in the name.
 #include "base/base.h"
+#include "base/format.h"
 #include "io/cloud/ply.h"
 #include "io/reader.h"
 
@@ -27,7 +28,7 @@ static ewa_status fail_line(const ewa_ply_source *source, const ewa_ply_header *
     char reason[256];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(reason, sizeof reason, format, arguments);
+    ewa_format_list(reason, sizeof reason, format, arguments);
     va_end(arguments);
     return ewa_fail(source->context, status, "%s: line %llu: %s", source->name,
                     (unsigned long long)header->line_count, reason);
@@ -151,9 +152,10 @@ static ewa_status read_property(const ewa_ply_source *source, ewa_ply_header *he
     return EWA_OK;
 }
 
-/// Takes "ply" and learns how lines end. The kind matters after end_header: there, a line feed behind a lone
+/// Takes "ply", perhaps behind a byte order mark, and learns how lines end. The kind matters after end_header: there, a line feed behind a lone
 /// carriage return may be data.
 static bool read_magic(ewa_reader *reader, char *line_end) {
+    ewa_reader_take(reader, ewa_bytes_mark(reader->bytes, reader->size_bytes));
     const uint8_t *magic = ewa_reader_take(reader, 3);
     if (!magic || memcmp(magic, "ply", 3) != 0) return false;
     const uint8_t *c;

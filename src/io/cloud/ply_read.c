@@ -7,6 +7,7 @@
 #include "io/cloud/format.h"
 #include "io/cloud/ply.h"
 #include "io/number.h"
+#include "io/reader.h"
 
 #include <string.h>
 
@@ -172,7 +173,7 @@ typedef struct ply_state {
 
 static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     (void)name;
-    return size_bytes >= 3 && memcmp(bytes, "ply", 3) == 0;
+    return ewa_bytes_begin(bytes, size_bytes, "ply");
 }
 
 static void close_ply(void *state) {

@@ -6,6 +6,7 @@
 // of the grid, 0 0 0 where nothing came back.
 #include "io/cloud/text_table.h"
 #include "io/number.h"
+#include "io/reader.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,7 +73,7 @@ static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     (void)name;
     const size_t looked = size_bytes < PROBE_BYTES ? (size_t)size_bytes : PROBE_BYTES;
     ewa_cursor cursor = {(const char *)bytes, (const char *)bytes + looked, 1};
-    if (looked >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) cursor.at += 3;
+    cursor.at += ewa_bytes_mark(bytes, looked);
     scan head;
     return take_head(&cursor, &head);
 }

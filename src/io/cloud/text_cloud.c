@@ -4,6 +4,7 @@
 // Clouds as tables of text: XYZ, PTS, CSV, TXT, ASC. A sample of lines says what the columns are, a look at all
 // lines which types they need and how many decimals there are; then the points are read.
 #include "io/cloud/text_parse.h"
+#include "io/reader.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,7 +50,7 @@ static bool look_at_text(const uint8_t *bytes, uint64_t size_bytes, char text[PR
     *whole = looked == size_bytes;
     if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0))
         *cursor = (ewa_cursor){text, text + narrow(bytes, looked, bytes[0] == 0xfe, text), 1};
-    else if (looked >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
+    else if (ewa_bytes_mark(bytes, looked))
         cursor->at += 3;
     for (const char *c = cursor->at; c < cursor->end; c++)
         if ((unsigned char)*c < ' ' && !ewa_is_blank(*c) && !ewa_is_line_end(*c)) return false;

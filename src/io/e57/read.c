@@ -3,6 +3,7 @@
 //
 // E57 files: from the header to the points of one scan after the other.
 #include "io/e57/e57.h"
+#include "base/format.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -93,7 +94,7 @@ static ewa_status note_scanners(const e57_state *state, ewa_cloud *prototype) {
         bool spherical;
         ewa_e57_has_place(&state->contents, scan, &spherical);
         known = known && (scan->has_pose || spherical);
-        length += (size_t)snprintf(text + length, LINE_BYTES, "%s%.17g %.17g %.17g", i ? "\n" : "", t[0],
+        length += (size_t)ewa_format(text + length, LINE_BYTES, "%s%.17g %.17g %.17g", i ? "\n" : "", t[0],
                                    t[1], t[2]);
     }
     const ewa_status status = known ? ewa_cloud_set_note(prototype, "scanners", text, length) : EWA_OK;
@@ -118,7 +119,7 @@ static ewa_status set_notes(const e57_state *state, ewa_cloud *prototype) {
     }
     const ewa_e57_limits limits = ewa_e57_scan_at(c, 0)->intensity;
     if (limits.low <= limits.high) {
-        length = snprintf(text, sizeof text, "%.17g to %.17g", limits.low, limits.high);
+        length = ewa_format(text, sizeof text, "%.17g to %.17g", limits.low, limits.high);
         EWA_TRY(ewa_cloud_set_note(prototype, "file.intensity", text, (size_t)length));
     }
     return note_scanners(state, prototype);

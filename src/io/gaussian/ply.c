@@ -8,6 +8,7 @@
 // al., "2D Gaussian Splatting for Geometrically Accurate Radiance Fields", 2024 (no third scale); Z. Yu et al.,
 // "Mip-Splatting", 2024 (filter_3D); and their programs.
 #include "io/gaussian/ply.h"
+#include "io/reader.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -249,7 +250,7 @@ static ewa_status read_ply(const ewa_gaussian_source *source, ewa_gaussians *set
 
 bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header),
                              ewa_status *status) {
-    if (source->size_bytes < 4 || memcmp(source->bytes, "ply", 3) != 0) return false;
+    if (source->size_bytes < 4 || !ewa_bytes_begin(source->bytes, source->size_bytes, "ply")) return false;
     ewa_ply_header *header = ewa_allocate(source->context, 1, sizeof *header);
     if (!header) {
         *status = EWA_ERROR_MEMORY;

@@ -5,6 +5,7 @@
 // chunks, so a damaged hierarchy costs a warning only.
 #include "io/las/copc.h"
 #include "io/octree.h"
+#include "base/format.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -38,7 +39,7 @@ __attribute__((format(printf, 2, 3))) static void find_fault(ewa_copc_tree *tree
     if (tree->fault[0]) return;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(tree->fault, sizeof tree->fault, format, arguments);
+    ewa_format_list(tree->fault, sizeof tree->fault, format, arguments);
     va_end(arguments);
 }
 
@@ -142,7 +143,7 @@ ewa_status ewa_copc_note(const ewa_cloud_source *source, const ewa_las_header *h
         ewa_report(source->context, EWA_SEVERITY_WARNING, "%s: the hierarchy of COPC is damaged: %s",
                    source->name, tree.fault);
     char text[96];
-    snprintf(text, sizeof text, "COPC 1.0, spacing %g, %d levels, %zu nodes", tree.spacing_world, levels,
+    ewa_format(text, sizeof text, "COPC 1.0, spacing %g, %d levels, %zu nodes", tree.spacing_world, levels,
              tree.node_count);
     ewa_copc_tree_free(source->context, &tree);
     return ewa_cloud_set_note(prototype, "file.copc", text, strlen(text));

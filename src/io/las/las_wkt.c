@@ -6,6 +6,7 @@
 //
 // Based on: OGC 01-009, "Coordinate Transformation Services", section 7; the EPSG Geodetic Parameter Dataset, 2023.
 #include "io/las/las_wkt.h"
+#include "base/format.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -134,7 +135,7 @@ static bool write_projected(unsigned code, const single_grid *grid, char name[PA
     if (!geographic_text(grid->geographic_code, geographic)) return false;
     snprintf(name, PART_BYTES, "%s", grid->name);
     const int length =
-        snprintf(text, 2 * PART_BYTES,
+        ewa_format(text, 2 * PART_BYTES,
                  "PROJCS[\"%s\",%s,PROJECTION[\"%s\"],%s,PARAMETER[\"false_easting\",%.0f],PARAMETER[\"false_northing\",%.0f],"
                  "UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]],AXIS[\"Easting\",EAST],AXIS[\"Northing\",NORTH],"
                  "AUTHORITY[\"EPSG\",\"%u\"]]",

@@ -431,7 +431,8 @@ ewa_status ewa_gltf_walk(ewa_mesh_build *build, gltf_take *take, void *user, con
     size_t json_bytes = source->size_bytes;
     ewa_json tree;
     if (json_bytes >= 4 && memcmp(json, "glTF", 4) == 0) EWA_TRY(open_container(&g, &json, &json_bytes));
-    if (json_bytes >= 3 && memcmp(json, "\xef\xbb\xbf", 3) == 0) json += 3, json_bytes -= 3;
+    const uint32_t mark = ewa_bytes_mark(json, json_bytes);
+    json += mark, json_bytes -= mark;
     while (json_bytes && json[json_bytes - 1] == 0) json_bytes--; // padding that should be blanks
     ewa_status status = ewa_json_parse(build->context, source->name, "a glTF file", json, json_bytes, &tree);
     g.root = tree.root;

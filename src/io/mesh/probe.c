@@ -90,7 +90,7 @@ static size_t narrow(const uint8_t *bytes, size_t size_bytes, size_t room, char 
 }
 
 ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t size_bytes) {
-    if (size_bytes >= 3 && memcmp(bytes, "ply", 3) == 0) return EWA_MODEL_PLY;
+    if (ewa_bytes_begin(bytes, size_bytes, "ply")) return EWA_MODEL_PLY;
     if (size_bytes >= 4 && memcmp(bytes, "glTF", 4) == 0) return EWA_MODEL_GLTF;
     if (ewa_mesh_is_vtk(bytes, size_bytes) || ewa_mesh_is_vtk_xml(bytes, size_bytes) || ewa_mesh_is_vtk_list(bytes, size_bytes))
         return EWA_MODEL_VTK;
@@ -98,7 +98,7 @@ ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t s
     const char *text = size_bytes ? (const char *)bytes : "";
     char letters[LOOKED_LETTERS];
     ewa_cursor cursor = {text, text + size_bytes, 1};
-    if (size_bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) cursor.at += 3;
+    cursor.at += ewa_bytes_mark(text, size_bytes);
     if (size_bytes >= 2 && (memcmp(text, "\xfe\xff", 2) == 0 || memcmp(text, "\xff\xfe", 2) == 0))
         cursor = (ewa_cursor){letters, letters + narrow(bytes, size_bytes, sizeof letters, letters), 1};
     if (is_gltf(cursor)) return EWA_MODEL_GLTF;

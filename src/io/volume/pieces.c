@@ -3,6 +3,7 @@
 //
 // What the parsers of volume files share: messages, and the files and bytes that a header names.
 #include "base/base.h"
+#include "base/format.h"
 #include "io/number.h"
 #include "io/referenced_file.h"
 #include "io/volume/file.h"
@@ -17,7 +18,7 @@ ewa_status ewa_volume_fail(const ewa_volume_input *in, ewa_status status, const 
     char what[MESSAGE_BYTES];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
+    ewa_format_list(what, sizeof what, format, arguments);
     va_end(arguments);
     return ewa_fail(in->context, status, "%s: %s", in->name, what);
 }
