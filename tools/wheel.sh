@@ -18,6 +18,9 @@ cd "$(dirname "$0")/.."
 build=$PWD/build
 tools=$build/wheel_tools
 numpy="numpy>=1.22"
+# What keeps it small: these libraries would make it half as large again.
+small="-C cmake.define.EWA_WITH_MESHOPT=OFF -C cmake.define.EWA_WITH_DRACO=OFF
+    -C cmake.define.EWA_WITH_DWA=OFF -C cmake.define.EWA_WITH_LZMA=OFF"
 # run_tests COMMAND...: the tests of the package by an interpreter that finds it; the first line names it, the last two count.
 run_tests() {
     if (unset EWA_LIBRARY; PYTHONDONTWRITEBYTECODE=1 "$@" python/tests/run.py ${WHEEL_TESTS:+"$WHEEL_TESTS"}) </dev/null >"$build/log-wheel.txt" 2>&1; then
@@ -76,10 +79,10 @@ build_wheel() {
     sh tools/dependencies.sh "$2"
     "$tools/bin/python" -c 'import lief, wheel' 2>/dev/null || { "${PYTHON:-python3}" -m venv "$tools"; "$tools/bin/pip" install -q lief wheel; }
     rm -rf "$wheels"
+    # shellcheck disable=SC2086
     pip wheel -q . --no-deps -w "$wheels" -C build-dir="build/wheel_$2" -C "cmake.args=-GNinja" \
         -C "cmake.define.CMAKE_TOOLCHAIN_FILE=$PWD/cmake/toolchains/$2.cmake" -C "cmake.define.CMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" \
-        -C cmake.define.EWA_WITH_CURL=OFF -C cmake.define.EWA_WITH_MESHOPT=OFF -C cmake.define.EWA_WITH_DRACO=OFF \
-        -C cmake.define.EWA_WITH_DWA=OFF -C cmake.define.EWA_WITH_LZMA=OFF \
+        -C cmake.define.EWA_WITH_CURL=OFF $small \
         -C install.strip=false # the linker has done so; llvm-strip breaks tables and signatures of what zig has linked for macOS
     (
         cd "$wheels"
@@ -150,7 +153,8 @@ esac
 }
 PATH=$tools/bin:$PATH
 rm -rf "$build/wheels" "$build/wheels_plain" "$build/wheel_open"
-pip wheel -q . --no-deps -w "$build/wheels_plain" -C build-dir=build/wheel
+# shellcheck disable=SC2086
+pip wheel -q . --no-deps -w "$build/wheels_plain" -C build-dir=build/wheel -C "cmake.define.CMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" $small
 auditwheel -v repair --strip -w "$build/wheels" "$build"/wheels_plain/libewa-*.whl >"$build/log-wheel.txt" 2>&1 ||
     { cat "$build/log-wheel.txt"; exit 1; }
 

@@ -47,6 +47,14 @@ def export(handle: Handle, address: int | None, shape: tuple[int, ...], dtype: n
                                          "strides": strides}))
 
 
+def exported(handle: Handle, attribute: b.ewa_attribute, count: int) -> Array:
+    """A stream of a cloud, read-only: shape (count, k), or (count,) for one number per point."""
+    width, dtype = attribute.component_count, DTYPE_OF[attribute.type]
+    shape = (count,) if width == 1 else (count, width)
+    strides = (attribute.stride_bytes,) if width == 1 else (attribute.stride_bytes, dtype.itemsize)
+    return export(handle, attribute.data, shape, dtype, strides)
+
+
 def _converted(array: Array, label: str) -> Array:
     """The same numbers in a type that the library has: half floats as floats, 64-bit integers, as lists make them, in 32 bits
     where these hold them, all else as doubles. Whole numbers that doubles round are said to be."""

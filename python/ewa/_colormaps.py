@@ -3,12 +3,14 @@
 """Colours of numbers that the library does not have: of matplotlib, or of a list."""
 from __future__ import annotations
 
+import ctypes
 from typing import Any
 
 import numpy as np
 
 from ._arrays import Array, as_numbers
 from ._errors import ArgumentError
+from ._library import functions as lib
 from ._struct import table
 
 _COUNT = 256
@@ -32,12 +34,26 @@ def colors_of_map(colormap: Any) -> Array | None:
         count = int(getattr(colormap, "N", _COUNT))
         made: Array = np.asarray(colormap(np.arange(count)), np.float64)[:, :3]
         return made
-    given = as_numbers(colormap, "colormap")
+    given = as_numbers([_shares(color) for color in colormap] if _has_text(colormap) else colormap, "colormap")
     if given.ndim != 2 or given.shape[1] not in (3, 4) or not len(given):
         raise ArgumentError(f"colormap: shape {given.shape}; (n, 3) is needed")
     shares = given[:, :3].astype(np.float64) / (255 if given.dtype.kind in "iu" else 1)
     places = np.linspace(0, len(shares) - 1, _COUNT)
     return np.stack([np.interp(places, np.arange(len(shares)), shares[:, c]) for c in range(3)], axis=1)
+
+
+def _has_text(colormap: Any) -> bool:
+    return isinstance(colormap, (list, tuple)) and any(isinstance(color, str) for color in colormap)
+
+
+def _shares(color: Any) -> list[float]:
+    """sRGB shares of a colour of a list: text as the program takes it, or numbers."""
+    if not isinstance(color, str):
+        return list(color)[:3]
+    srgba = (ctypes.c_double * 4)()
+    if not lib.ewa_color_read(color.encode(), srgba):
+        raise ArgumentError(f"colormap: '{color}' is no colour")
+    return list(srgba[:3])
 
 
 def color_codes(scalar: Array, colors: Array, low: float, high: float) -> Array:

@@ -91,12 +91,12 @@ class Pin:
                 raise ClosedError(f"{self.what}: the memory of the array was freed or moved (ndarray.resize)")
 
 
-def _check_pins(handle: Handle) -> None:
+def check_pins(handle: Handle) -> None:
     for kept in handle.keep:
         if type(kept) is Pin:
             kept.check()
         elif type(kept) is Handle and kept.keep:
-            _check_pins(kept)
+            check_pins(kept)
 
 
 class _State:
@@ -247,7 +247,7 @@ class Core:
         if handle.address is None:
             raise ClosedError(f"{handle.what} is closed")
         if handle.keep:
-            _check_pins(handle)
+            check_pins(handle)
         return handle.address
 
     def discard(self, destroy: Callable[..., None], address: int, keep: Any) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import difflib
 import math
 import operator
 import os
@@ -39,6 +40,9 @@ class Option(NamedTuple):
     unit: str
     help: str
 
+
+#: Options of Scene.add() that are looked for where all is drawn.
+_OF_THINGS = ("color_by", "colormap", "tint", "to_world", "transfer", "visible")
 
 _tables: dict[str, dict[str, Option]] = {}
 
@@ -140,9 +144,12 @@ def fill(struct: ctypes.Structure, name: str, values: Mapping[str, Any], own: bo
     options = table(name)
     for key, value in values.items():
         option = options.get(key)
+        if option is None and key in _OF_THINGS:
+            raise TypeError(f"{key} is said of each thing: ewa.Scene().add(thing, {key}=...)")
         if option is None or (not own and key in OWN.get(name, ())):
             known = [option for option in options if option not in OWN.get(name, ())]
-            raise TypeError(f"{key} is no option of {name}; those are {', '.join(known)}")
+            near = difflib.get_close_matches(key, known, 1)
+            raise TypeError(f"{key} is no option of {name}{f': {near[0]}?' if near else ''}; those are {', '.join(known)}")
         if value is None:
             continue
         if not option.length:

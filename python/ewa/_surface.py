@@ -10,6 +10,7 @@ import numpy as np
 
 from ._arrays import Array, as_contiguous
 from ._context import Context
+from .cloud import MEANT
 from .image import linear_of_codes
 from .mesh import Mesh
 
@@ -28,6 +29,16 @@ class Surface:
     texcoords: Array | None = None
     materials: list[tuple[Any, Any]] = field(default_factory=list)
     triangle_materials: Array | None = None
+    numbers: dict[str, Array] = field(default_factory=dict)
+
+    def add_numbers(self, name: str, values: Any) -> None:
+        """Add numbers of the vertices, unless nothing is drawn by them: of other types, or more than four for each; names
+        are made such as those of the arrays of VTK's files."""
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiub" or array.ndim not in (1, 2) or (array.ndim == 2 and not 1 <= array.shape[1] <= 4):
+            return
+        name = name.replace(" ", "_")
+        self.numbers["scalar_" + name if name in MEANT else name] = array
 
     def moved(self, matrix: Any) -> Surface:
         """The surface mapped by a matrix of (4, 4) that acts on columns."""
@@ -39,7 +50,7 @@ class Surface:
             normals = normals @ cofactors.T
         mirrored = np.linalg.det(m[:3, :3]) < 0
         return Surface(self.vertices @ m[:3, :3].T + m[:3, 3], self.triangles[:, ::-1] if mirrored else self.triangles,
-                       normals, self.colors, self.texcoords, self.materials, self.triangle_materials)
+                       normals, self.colors, self.texcoords, self.materials, self.triangle_materials, self.numbers)
 
     def apart(self) -> Surface:
         """The surface with vertices of its own for every triangle, for what is said of each or of its corners."""
@@ -48,7 +59,7 @@ class Surface:
                        None if self.normals is None else self.normals[corners],
                        None if self.colors is None else self.colors[corners],
                        None if self.texcoords is None else self.texcoords[corners], self.materials,
-                       self.triangle_materials)
+                       self.triangle_materials, {name: values[corners] for name, values in self.numbers.items()})
 
 
 def linear_colors(colors: Any) -> Array:
@@ -66,8 +77,18 @@ def srgb8(colors: Array) -> Array:
     return made
 
 
+def _joined(name: str, surfaces: Sequence[Surface]) -> Array:
+    """Numbers of all vertices; where a surface has none they are NaN, whole ones 0."""
+    given = [surface.numbers.get(name) for surface in surfaces]
+    first = next(numbers for numbers in given if numbers is not None)
+    other = np.nan if first.dtype.kind == "f" else 0
+    return np.concatenate([
+        np.full((len(surface.vertices), *first.shape[1:]), other, first.dtype) if numbers is None else numbers
+        for surface, numbers in zip(surfaces, given)])
+
+
 def mesh_of(surfaces: Sequence[Surface], context: Context | None) -> Mesh:
-    """One mesh of several; what only some have is white, no normal, the picture's corner."""
+    """One mesh of several; what only some have is white, no normal, the picture's corner, no number."""
     first = np.cumsum([0] + [len(surface.vertices) for surface in surfaces])
     streams: dict[str, Any] = {}
     for name, width, otherwise in (("normals", 3, 0), ("colors", 4, 1), ("texcoords", 2, 0)):
@@ -77,6 +98,8 @@ def mesh_of(surfaces: Sequence[Surface], context: Context | None) -> Mesh:
                 np.full((len(surface.vertices), width), otherwise, np.float32) if part is None
                 else as_contiguous(part, np.float32, (len(surface.vertices), width), name)
                 for surface, part in zip(surfaces, parts)])
+    for name in dict.fromkeys(name for surface in surfaces for name in surface.numbers):
+        streams[name] = _joined(name, surfaces)
     if any(surface.materials for surface in surfaces):
         materials: list[tuple[Any, Any]] = []
         which = []

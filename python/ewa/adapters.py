@@ -179,6 +179,8 @@ def _of_trimesh(value: Any, context: Context | None) -> list[_Part]:
 
 def _of_trimesh_mesh(mesh: Any) -> Surface:
     made = Surface(np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces))
+    for name, values in dict(getattr(mesh, "vertex_attributes", {})).items():
+        made.add_numbers(name, values)
     if "vertex_normals" in getattr(mesh, "_cache", ()):  # those of a file; others are made of the triangles, as here
         made.normals = np.asarray(mesh.vertex_normals)
     visual = getattr(mesh, "visual", None)
@@ -274,6 +276,9 @@ def _open3d_surface(made: Surface, vertex: Mapping[str, Array], triangle: Mappin
         made.normals = vertex["normals"]
     if len(vertex.get("colors", ())):
         made.colors = linear_colors(vertex["colors"])
+    for name, values in vertex.items():
+        if name not in ("positions", "normals", "colors"):
+            made.add_numbers(name, values)
     uvs = triangle.get("texture_uvs")
     if uvs is not None and len(uvs) and any(picture is not None for _, picture in materials):
         made = made.apart()
@@ -304,24 +309,31 @@ def _of_pyvista(value: Any, context: Context | None) -> list[_Part]:
         return [_of_pyvista_points(value, context)]
     mesh = value if value.is_all_triangles else value.triangulate()
     made = Surface(np.asarray(mesh.points, np.float64), np.asarray(mesh.faces).reshape(-1, 4)[:, 1:])
-    for name in _NORMALS:
-        if name in mesh.point_data:
-            made.normals = np.asarray(mesh.point_data[name])
-    for name in _COLORS:
-        if name in mesh.point_data and np.asarray(mesh.point_data[name]).ndim == 2:
-            made.colors = linear_colors(mesh.point_data[name])
-        elif name in mesh.cell_data and np.asarray(mesh.cell_data[name]).ndim == 2:
-            made = made.apart()
-            made.colors = linear_colors(np.repeat(np.asarray(mesh.cell_data[name]), 3, axis=0))
+    of_points = {name: np.asarray(mesh.point_data[name]) for name in mesh.point_data.keys()}
+    of_cells = {name: np.asarray(mesh.cell_data[name]) for name in mesh.cell_data.keys()}
+    for name, values in of_points.items():
+        if name in _NORMALS:
+            made.normals = values
+        elif name in _COLORS and values.ndim == 2:
+            made.colors = linear_colors(values)
+        else:
+            made.add_numbers(name, values)
+    made = made.apart() if of_cells else made
+    for name, values in of_cells.items():
+        of_corners = np.repeat(values, 3, axis=0)
+        if name in _COLORS and values.ndim == 2:
+            made.colors = linear_colors(of_corners) if made.colors is None else made.colors
+        elif name not in _NORMALS:
+            made.add_numbers(f"cell_{name}" if name in of_points else name, of_corners)
     return [made]
 
 
 def _pyvista_surface(grid: Any) -> Any:
     """The outside of a grid; versions that have several ways warn where none is chosen."""
     try:
-        return grid.extract_surface(algorithm="dataset_surface")
+        return grid.extract_surface(pass_pointid=False, pass_cellid=False, algorithm="dataset_surface")
     except TypeError:
-        return grid.extract_surface()
+        return grid.extract_surface(pass_pointid=False, pass_cellid=False)
 
 
 def _of_pyvista_points(data: Any, context: Context | None) -> Cloud:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 import numpy as np
 
 from . import _bindings as b
-from ._arrays import DTYPE_OF, TYPE_OF, Array, as_points, export
+from ._arrays import TYPE_OF, Array, as_points, exported
 from ._colormaps import color_codes, colors_of_map
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
@@ -35,6 +35,10 @@ _note.argtypes = (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p)
 
 #: Names of arguments that stand for the library's.
 _ALIASES = {"normals": "normal", "colors": "color"}
+
+#: Streams that the library knows.
+MEANT = ("position", "normal", "color", "radius", "tangent_u", "tangent_v", "material", "clip0", "clip1", "clip_mode", "border",
+         "surfaceness", "signed_curvature")
 
 
 class Cloud:
@@ -87,7 +91,7 @@ class Cloud:
         for name, value in given.items():
             if value is not None:
                 streams[_ALIASES.get(name, name)] = as_points(value, name, copy)
-        self._handle = _borrowed(core_of(context), streams, len(position))
+        self._handle = borrowed(core_of(context), streams, len(position))
         if origin is not None:
             self._core.value(lib.ewa_cloud_set_origin, self._handle, numbers(origin, 3, "origin"))
 
@@ -143,10 +147,7 @@ class Cloud:
         attribute = self._core.value(lambda cloud: _copied(lib.ewa_cloud_find(cloud, name.encode())), self._h)
         if attribute is None:
             raise KeyError(name)
-        count, width, dtype = len(self), attribute.component_count, DTYPE_OF[attribute.type]
-        shape = (count,) if width == 1 else (count, width)
-        strides = (attribute.stride_bytes,) if width == 1 else (attribute.stride_bytes, dtype.itemsize)
-        return export(self._h, attribute.data, shape, dtype, strides)
+        return exported(self._h, attribute, len(self))
 
     def borrows(self, name: str) -> bool:
         """Return whether a stream is memory of the array that it was made of."""
@@ -457,7 +458,7 @@ class Cloud:
         colormap : str, matplotlib.colors.Colormap, or array_like of shape (n, 3), optional
             "viridis", "turbo", "gray", "plasma", "inferno", "magma", "cividis", "coolwarm", or "classes" for the
             colours of LAS; another one of matplotlib, by its name or itself; or sRGB colours from the first to the last, in
-            [0, 1]. Default: "classes" for whole numbers named classification, else "viridis".
+            [0, 1] or as text ("#ff8800"). Default: "classes" for whole numbers named classification, else "viridis".
         range : (float, float), optional
             Numbers of the first and the last colour. Default: smallest to largest; of intensities without the outermost
             two per cent.
@@ -598,7 +599,7 @@ def _restore(streams: Mapping[str, Array], count: int, origin: Array, grid: byte
              name: bytes | None) -> Cloud:
     """The cloud of a pickle, in the default context."""
     core = core_of(None)
-    cloud = Cloud._of(_borrowed(core, {key: as_points(array, key, None, False) for key, array in streams.items()}, count))
+    cloud = Cloud._of(borrowed(core, {key: as_points(array, key, None, False) for key, array in streams.items()}, count))
     core.value(lib.ewa_cloud_set_origin, cloud._h, numbers(origin, 3, "origin"))
     core.value(lib.ewa_cloud_set_grid, cloud._h, ctypes.byref(b.ewa_coordinate_grid.from_buffer_copy(grid)))
     for key, text in notes.items():
@@ -619,7 +620,7 @@ def _borrow(handle: Handle, streams: Mapping[str, Array]) -> None:
                          stride)
 
 
-def _borrowed(core: Core, streams: Mapping[str, Array], count: int) -> Handle:
+def borrowed(core: Core, streams: Mapping[str, Array], count: int) -> Handle:
     for name, array in streams.items():
         if len(array) != count:
             raise ArgumentError(f"{name}: {len(array)} points, not {count}")

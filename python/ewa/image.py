@@ -179,6 +179,8 @@ class Image:
             core.call_apart(lib.ewa_pixels_save, core.address, file, width, height, channels, pixels.ctypes.data,
                             width * channels, keep=pixels)
             return
+        if "rgba" not in self._planes and not file.lower().endswith((b".exr", b".pfm")):
+            raise ArgumentError(f"'{os.fsdecode(file)}': pictures are written to .png, .jpg, .exr and .pfm")
         if not file.lower().endswith(b".exr"):
             save_image(path, self.rgba[:, :, :3], camera=self.camera)
             return

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 
 from . import _bindings as b
-from ._arrays import Array, as_colors, as_contiguous, as_numbers, export
-from ._context import Context, Core, Handle, Pin, core_of
+from ._arrays import Array, as_colors, as_contiguous, as_numbers, as_points, export, exported
+from ._context import Context, Core, Handle, Pin, check_pins, core_of
 from ._errors import ArgumentError, ClosedError, FormatError
 from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import is_path
 from ._struct import Source, fill, initialised, loader, numbers, path_bytes
 from .camera import PathLike
-from .cloud import Cloud, merge_clouds
+from .cloud import MEANT, Cloud, borrowed, merge_clouds
 from .image import as_picture, linear_of_codes, pixels_struct
 from .octree import Octree, is_folder
 
@@ -50,6 +50,9 @@ class Mesh:
         the vertices are multiplied.
     triangle_materials : array_like of int, shape (m,), optional
         Which material each triangle has. Default: 0.
+    **attributes
+        Further numbers of the vertices, arrays of shape (n,) or (n, 1) to (n, 4), which points on the triangles get by their
+        names: between the corners, of whole numbers those of the nearest corner.
 
     Raises
     ------
@@ -61,7 +64,7 @@ class Mesh:
 
     def __init__(self, vertices: Any, triangles: Any, *, normals: Any = None, colors: Any = None, texcoords: Any = None,
                  materials: Sequence[tuple[Sequence[float], Any]] | None = None, triangle_materials: Any = None,
-                 context: Context | None = None) -> None:
+                 context: Context | None = None, **attributes: Any) -> None:
         core = core_of(context)
         positions = as_contiguous(vertices, np.float64, (None, 3), "vertices")
         corners = _whole(triangles, 2, "triangles")
@@ -81,10 +84,17 @@ class Mesh:
                 arrays.append(as_contiguous(value, np.float32, (len(positions), width), name))
                 setattr(self._mesh, name, arrays[-1].ctypes.data)
         self._materials: tuple[Any, ...] = ()
+        keep: tuple[Any, ...] = ()
+        if attributes:
+            for name in attributes:
+                if name in MEANT:
+                    raise ArgumentError(f"{name}: points on triangles have that of their own")
+            numbers_of = borrowed(core, {name: as_points(value, name, None) for name, value in attributes.items()}, len(positions))
+            self._mesh.attributes, keep = numbers_of.address, (numbers_of,)
         if materials:
             arrays += self._set_materials(materials, triangle_materials)
         self._handle = Handle(core, None, lib.ewa_mesh_free, "the mesh",
-                              tuple(Pin(array, "mesh") for array in arrays))
+                              keep + tuple(Pin(array, "mesh") for array in arrays))
 
     def _set_materials(self, materials: Sequence[tuple[Sequence[float], Any]], of_triangles: Any) -> list[Array]:
         """Fill in the materials; returns the arrays that the struct borrows."""
@@ -138,6 +148,17 @@ class Mesh:
         return self._plane(self._mesh.triangles, self._mesh.triangle_count, 3, np.uint32)
 
     @property
+    def attributes(self) -> dict[str, Array]:
+        """Further numbers of the vertices by their names; shape (n,) or (n, k); read-only."""
+        def read(_: int | None) -> list[b.ewa_attribute]:
+            cloud = self._mesh.attributes
+            count = lib.ewa_cloud_attribute_count(cloud) if cloud else 0
+            return [b.ewa_attribute.from_buffer_copy(lib.ewa_cloud_attribute_at(cloud, i).contents) for i in range(count)]
+
+        return {attribute.name.decode(): exported(self._h, attribute, self._mesh.vertex_count)
+                for attribute in self._h.core.value(read, None)}
+
+    @property
     def closed(self) -> bool:
         """Whether the mesh bounds a solid."""
         result = ctypes.c_bool()
@@ -154,8 +175,7 @@ class Mesh:
         def checked(*given: Any) -> int:
             if not self._mesh.context or (handle.address is None and not handle.keep):
                 raise ClosedError("the mesh is closed")
-            for pin in handle.keep:
-                pin.check()
+            check_pins(handle)
             status: int = function(ctypes.byref(self._mesh), *given)
             return status
 
@@ -181,7 +201,7 @@ class Mesh:
         return Cloud._made(self._h.core, self._bound(lib.ewa_mesh_sample), ctypes.byref(made))
 
     def __reduce__(self) -> Any:
-        mesh, streams = self._mesh, {}
+        mesh, streams = self._mesh, dict(self.attributes)
         for name, width in (("normals", 3), ("colors", 4), ("texcoords", 2)):
             if getattr(mesh, name):
                 streams[name] = self._plane(getattr(mesh, name), mesh.vertex_count, width, np.float32)

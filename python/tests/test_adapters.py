@@ -242,6 +242,9 @@ class Trimesh(Both):
         face.export(self.path("face.ply"))
         self.same(face, "face.ply")
 
+        face.vertex_attributes["heat"] = np.arange(8.0)
+        self.assertEqual(set(np.unique(ewa.as_drawables(face)[0].attributes["heat"])), set(range(8)))
+
         class Own(self.trimesh.Trimesh):  # type: ignore[name-defined,misc]
             pass
 
@@ -338,6 +341,19 @@ class PyVista(Both):
         box.save(self.path("box.vtp"))
         self.same(box, "box.vtp")
         self.assertEqual(type(ewa.as_drawables(box.cast_to_unstructured_grid())[0]), ewa.Mesh)
+        numbers = pv.Sphere()  # with normals, behind which VTK's files have more arrays
+        numbers["heat"], numbers["radius"] = numbers.points[:, 2], numbers.points[:, 0]
+        numbers.cell_data["heat"] = np.arange(numbers.n_cells, dtype=np.float32)
+        numbers.save(self.path("numbers.vtp"))
+        for name in ("heat", "scalar_radius", "cell_heat"):
+            pixels = []
+            for thing in (numbers, self.path("numbers.vtp")):
+                scene = ewa.Scene()
+                scene.add(thing, color_by=name)
+                pixels.append(scene.render(CAMERA).rgba8)
+            np.testing.assert_array_equal(*pixels)
+        both = ewa.as_drawables(pv.MultiBlock([numbers, box]))[0].attributes
+        self.assertEqual(np.isnan(both["heat"]).sum(), 8)
 
     def test_cloud(self) -> None:
         pv, (points, colors) = self.pv, ball()
@@ -396,6 +412,11 @@ class StandIns(Both):
                         is_all_triangles=True, point_data={}, cell_data={"RGB": shades})
         self.assertEqual(self.drawn(mesh), self.drawn(ewa.Mesh(
             corners[triangles.ravel()], np.arange(36).reshape(-1, 3), colors=np.repeat(shades, 3, axis=0))))
+        mesh.point_data, mesh.cell_data = {"heat": corners[:, 2], "text": np.array(["a"] * 8)}, {"heat": np.arange(12)}
+        found = ewa.as_drawables(mesh)[0].attributes
+        self.assertEqual(list(found), ["heat", "cell_heat"])
+        np.testing.assert_array_equal(found["cell_heat"], np.repeat(np.arange(12), 3))
+        np.testing.assert_array_equal(found["heat"], corners[triangles.ravel(), 2])
         voxels = np.random.default_rng(4).random((4, 5, 6)).astype(np.float32)
         image = stand_in("pyvista.core", dimensions=(7, 6, 5), spacing=(0.1, 0.2, 0.3), origin=(1, 2, 3), point_data={},
                          cell_data={"v": voxels.ravel()})

@@ -194,6 +194,16 @@ class Meshes(Case):
         for triangles in wrong:
             with self.assertRaises(ewa.ArgumentError):
                 ewa.Mesh(corners, triangles)
+        marked = ewa.Mesh(corners, faces, heat=[0, 1, 2, 4.0], part=np.array([7, 7, 7, 9]))
+        self.assertEqual(list(marked.attributes), ["heat", "part"])
+        points = marked.sample(point_count=2000)
+        x, y, z = points["position"].T
+        np.testing.assert_allclose(points["heat"], x + 2 * y + 4 * z, atol=1e-6)
+        self.assertEqual(set(points["part"].tolist()), {7, 9})
+        self.assertEqual(ewa.Mesh(corners, faces).attributes, {})
+        for wrong_numbers in ({"heat": [1, 2]}, {"radius": [1, 1, 1, 1.0]}, {"heat": np.zeros((4, 5))}):
+            with self.assertRaises(ewa.ArgumentError):
+                ewa.Mesh(corners, faces, **wrong_numbers)  # type: ignore[arg-type]
         with self.assertRaises(ewa.NumericError):
             ewa.Mesh(np.zeros((3, 3)), [[0, 1, 2]]).sample()
         with self.assertRaises(ewa.FormatError):

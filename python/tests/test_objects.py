@@ -40,7 +40,7 @@ class Pickles(Case):
             "wide": ewa.Cloud(rng.normal(size=(500, 3)), colors=np.full((500, 3), 2**31, np.uint32), origin=(5e5, 6e6, 1)),
             "mesh": ewa.Mesh(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], colors=np.eye(4, 3), normals=-np.eye(4, 3),
                              texcoords=corners[:, :2], materials=[((1, 1, 1, 1), None), ((1, 0.5, 1, 1), self.path("p.png"))],
-                             triangle_materials=[0, 1, 1, 0]),
+                             triangle_materials=[0, 1, 1, 0], heat=corners[:, 2]),
             "volume": ewa.generate_volume("ball", dims=[12, 14, 16]), "gaussians": gaussians,
             "read": ewa.read_gaussians(self.path("g.ply")), "octree": ewa.Octree(self.path("a.copc.laz"))}
 
@@ -61,6 +61,7 @@ class Pickles(Case):
             np.testing.assert_array_equal(again[name], cloud[name])
         np.testing.assert_array_equal(again.origin, cloud.origin)
         self.assertEqual(again.notes, cloud.notes)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(self.things()["mesh"])).attributes["heat"], [0, 0, 0, 1])
         cloud.save(self.path("b.las"))
         again.save(self.path("c.las"))
         self.assertEqual(self.bytes("b.las"), self.bytes("c.las"))
@@ -95,6 +96,8 @@ class Images(Case):
             image.normal
         with self.assertRaisesRegex(ewa.ArgumentError, "rgba8 was not drawn"):
             image.save(self.path("a.jpg"))
+        with self.assertRaisesRegex(ewa.ArgumentError, "written to .png, .jpg, .exr and .pfm"):
+            ewa.render(ewa.generate("torus", 500), size=(32, 24)).save(self.path("a.webp"))
         image.save(self.path("a.exr"))
         self.assertEqual(ewa.read_image(self.path("a.exr")).shape[:2], (24, 32))
         self.assertEqual(np.asarray(image).dtype, np.float32)
@@ -118,6 +121,8 @@ class Colormaps(Case):
         self.assertTrue((np.diff(made[np.argsort(z), 0].astype(int)) >= 0).all())
         red = self.cloud.color_by("z", [(1.0, 0, 0)], range=(0, 1))["color"]
         self.assertEqual(set(map(tuple, red.tolist())), {(255, 0, 0)})
+        np.testing.assert_array_equal(self.cloud.color_by("z", ["#ff0000", (0, 0.2, 1.0), "white"])["color"],
+                                      self.cloud.color_by("z", [[1.0, 0, 0], [0, 0.2, 1.0], [1, 1, 1]])["color"])
         holes = np.where(z > 0, z, np.nan)
         self.cloud["height"] = holes
         with self.assertWarnsRegex(ewa.EwaWarning, "not finite"):
@@ -125,7 +130,7 @@ class Colormaps(Case):
         with self.assertWarnsRegex(ewa.EwaWarning, "not finite"):
             theirs = self.cloud.color_by("height", "gray")["color"]
         np.testing.assert_array_equal(ours[z <= 0], theirs[z <= 0])
-        wrong: list[Any] = ["no such map", [[1, 2]], [], object()]
+        wrong: list[Any] = ["no such map", [[1, 2]], [], object(), ["no such colour"]]
         for colormap in wrong:
             with self.assertRaises(ewa.ArgumentError):
                 self.cloud.color_by("z", colormap)

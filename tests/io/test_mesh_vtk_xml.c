@@ -50,11 +50,16 @@ static void begin_file(writer *w, const char *type, int storage, bool big_endian
     put(w, head);
 }
 
+/// What VTK writes into an array of vectors whose longest it has looked for.
+static const char KEY[] = "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"2\">\n<Value index=\"0\">\n0\n"
+                          "</Value>\n<Value index=\"1\">\n1\n</Value>\n</InformationKey>\n";
+
 /// Writes an array of "Float32", "Float64", "Int32", "Int64" or "UInt8".
 static void put_array(writer *w, const char *type, const char *attributes, int count, const double *numbers) {
     uint8_t bytes[MAX_BYTES / 8], *all = bytes + 32;
     char text[MAX_BYTES / 4];
     size_t size = 0;
+    const char *key = strstr(attributes, "rgb") ? KEY : "";
     snprintf(text, sizeof text, "<DataArray type=\"%s\" %s ", type, attributes);
     put(w, text);
     if (w->storage == 0) {
@@ -63,7 +68,9 @@ static void put_array(writer *w, const char *type, const char *attributes, int c
             snprintf(text, sizeof text, "%.9g ", numbers[i]);
             put(w, text);
         }
-        put(w, "\n</DataArray>\n");
+        put(w, "\n");
+        put(w, key);
+        put(w, "</DataArray>\n");
         return;
     }
     const uint32_t word = w->storage % 2 ? 8 : 4;
@@ -103,11 +110,14 @@ static void put_array(writer *w, const char *type, const char *attributes, int c
     if (w->storage == 1) {
         put(w, "format=\"binary\">\n");
         put(w, text);
-        put(w, "\n</DataArray>\n");
+        put(w, "\n");
+        put(w, key);
+        put(w, "</DataArray>\n");
         return;
     }
-    char offset[64];
-    snprintf(offset, sizeof offset, "format=\"appended\" offset=\"%zu\"/>\n", w->appended_size);
+    char offset[512];
+    snprintf(offset, sizeof offset, *key ? "format=\"appended\" offset=\"%zu\">\n%s</DataArray>\n" : "format=\"appended\" offset=\"%zu\"/>\n%s",
+             w->appended_size, key);
     put(w, offset);
     const bool raw = w->storage % 2 == 0;
     memcpy(w->appended + w->appended_size, raw ? (const char *)out : text, raw ? out_size : text_size);

@@ -467,7 +467,7 @@ static ewa_status read_body(xml_mesh *m) {
             section = "";
         } else if (in_piece && ewa_xml_is(&tag, "DataArray")) {
             if (!tag.closing) offer_array(m, &tag, section, &coordinates);
-        } else {
+        } else if (!ewa_xml_is(&tag, "InformationKey") && !ewa_xml_is(&tag, "Value")) { // which stand in arrays
             section = "";
             for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++)
                 if (!tag.closing && ewa_xml_is(&tag, sections[i])) section = sections[i];
