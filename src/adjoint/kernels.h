@@ -44,7 +44,30 @@ typedef struct ewa_adjoint_area {
     bool behind; ///< not the first surface
 } ewa_adjoint_area;
 
-/// Loops over splats. Each has a set of blocks, a bit for each that its box touches, row by row: where it may count. What is not in
+enum { EWA_ADJOINT_LIGHTS = 3 }; ///< of filled pixels at most
+
+/// A light; one that is not there is all 0.
+typedef struct ewa_adjoint_light {
+    ewa_vec3 toward_world; ///< of headlights 0
+    double headlight;      ///< 1: it shines from the eye; else 0
+    double color[3];
+} ewa_adjoint_light;
+
+/// How pixels that one opaque surface fills show it, and what the loss changes by them.
+typedef struct ewa_adjoint_filling {
+    double minimum;          ///< weight from which on they are filled
+    double ambient, diffuse; ///< of the material
+    double unlit;            ///< 1 without light, else 0
+    ewa_adjoint_light lights[EWA_ADJOINT_LIGHTS];
+    double inverse_scale;    ///< from lengths in camera space to the world's
+    const float *rgba;       ///< cotangents, 4 per pixel, from the first pixel of the area on
+    size_t stride_px;        ///< from row to row
+    uint32_t width_px, height_px; ///< of the area, within the picture
+    bool with_camera;
+    double scales[EWA_CAMERA_NUMBERS]; ///< that the camera's terms are multiplied by before they are rounded
+} ewa_adjoint_filling;
+
+/// Loops over splats and pixels. Each splat has a set of blocks, a bit for each that its box touches, row by row: where it may count. What is not in
 /// the set is not looked at again. Boxes of more than 64 blocks have all bits, and are looked at as a whole.
 typedef struct ewa_adjoint_kernels {
     /// Lowers the bounds to z + eps where splats count beyond what is passed, and makes their sets of blocks; returns the farthest bound
@@ -58,6 +81,11 @@ typedef struct ewa_adjoint_kernels {
     /// `scales`, each rounded to a whole number. Depths only with `with_depth`.
     void (*gather)(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, uint32_t width, bool with_depth,
                    const double scales[EWA_MOMENT_COUNT], int64_t sums[EWA_MOMENT_COUNT]);
+
+    /// Ends the pixels of a first surface that it fills, showing one side and no clip line: sets cotangents of their sums in the
+    /// planes, and in `camera`, if that is wanted, what directions to the eye give. Also ends pixels in which nothing is. `done` gets a bit for each lane
+    /// of a block that is ended.
+    void (*fill)(const ewa_adjoint_area *area, const ewa_adjoint_filling *by, uint8_t *done, double camera[EWA_CAMERA_NUMBERS]);
 } ewa_adjoint_kernels;
 
 EWA_DECLARE_VERSIONS(const ewa_adjoint_kernels, ewa_adjoint_kernels);

@@ -97,6 +97,8 @@ EIGHT block block_at(const ewa_adjoint_area *area, uint32_t column, uint32_t row
                    area->planes + ((size_t)row * area->columns + column) * EWA_PLANES * LANES};
 }
 
+#include "adjoint/filled_body.h"
+
 /// Sets all but the weight of plain splats, which have no share; returns whether the splat counts anywhere beyond what is
 /// passed. `plain` is a constant.
 EIGHT bool sample_block(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const block *at, bool plain,
@@ -318,4 +320,4 @@ static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *spla
         gather_splat(area, splat, blocks, true, EWA_MOMENT_COUNT, false, scales, totals);
 }
 
-const ewa_adjoint_kernels EWA_VERSION(ewa_adjoint_kernels) = {.find = find, .sum = sum, .gather = gather};
+const ewa_adjoint_kernels EWA_VERSION(ewa_adjoint_kernels) = {.find = find, .sum = sum, .gather = gather, .fill = fill};

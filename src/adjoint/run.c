@@ -140,6 +140,36 @@ static void set_units(ewa_adjoint_job *job) {
     for (int i = 0; i < 3; i++) *units[i] = bounds[i] > 0 ? ldexp(1, UNIT_BITS - ilogb(bounds[i])) : 1;
 }
 
+/// Whether pixels that a surface fills end by `filling`, and what it says. Units are set.
+static void set_filling(ewa_adjoint_job *job) {
+    const ewa_reference_resolve *to = &job->frame.resolve;
+    const ewa_reference_view *view = &job->frame.view;
+    const ewa_frame_cotangent *by = &job->cotangent;
+    const uint32_t light_count = to->shading->lit ? to->shading->light_count : 0;
+    job->fills = by->rgba && !by->depth && !by->normal && !by->coverage && !job->gradient.rgba && job->width && !to->layering.transparent &&
+                 light_count <= EWA_ADJOINT_LIGHTS;
+    if (!job->fills) return;
+    float material[5];
+    ewa_reference_material_of(to, material);
+    ewa_adjoint_filling *filling = &job->filling;
+    *filling = (ewa_adjoint_filling){.minimum = to->options->edge_antialiasing ? to->options->edge_threshold * to->unit_coverage : 0,
+                                     .ambient = light_count ? (double)material[0] : 0,
+                                     .diffuse = light_count ? (double)material[1] : 0,
+                                     .unlit = light_count ? 0 : 1,
+                                     .inverse_scale = 1 / vec3_length(mat3_row(&view->placement.linear, 2)),
+                                     .rgba = by->rgba,
+                                     .stride_px = job->tiles.width_px,
+                                     .with_camera = light_count && job->gradient.camera};
+    for (uint32_t i = 0; i < light_count; i++) {
+        const ewa_shading_light *from = &to->shading->lights[i];
+        filling->lights[i] = (ewa_adjoint_light){.toward_world = from->toward_world, .headlight = from->headlight ? 1 : 0};
+        memcpy(filling->lights[i].color, from->color, sizeof from->color);
+    }
+    const double fx = ewa_adjoint_power_of(view->fx_px), fy = ewa_adjoint_power_of(view->fy_px);
+    const double sizes[EWA_CAMERA_NUMBERS] = {1, 1, 1, 1, 1, 1, fx, fy, fx, fy};
+    for (int i = 0; i < EWA_CAMERA_NUMBERS; i++) filling->scales[i] = job->units.other * sizes[i];
+}
+
 /// Points at a part of a stream where it is wanted.
 static void store_point(double *stream, uint64_t point, int components, const double *values) {
     if (stream) memcpy(stream + point * (uint64_t)components, values, (size_t)components * sizeof *values);
@@ -230,7 +260,8 @@ static ewa_status reserve(ewa_adjoint_job *job) {
         s->blocks = ewa_allocate(context, surfaces * splats, sizeof *s->blocks);
         s->layers = ewa_allocate(context, surfaces, sizeof *s->layers);
         s->pixels = ewa_allocate(context, pixels, sizeof *s->pixels);
-        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->blocks || !s->layers || !s->pixels)
+        s->done = ewa_allocate(context, ewa_adjoint_block_count(job), sizeof *s->done);
+        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->blocks || !s->layers || !s->pixels || !s->done)
             return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
@@ -249,6 +280,7 @@ static void release(ewa_adjoint_job *job) {
         ewa_release(context, s->reached, job->surface_count, sizeof *s->reached);
         ewa_release(context, s->layers, job->surface_count, sizeof *s->layers);
         ewa_release(context, s->pixels, pixels, sizeof *s->pixels);
+        ewa_release(context, s->done, ewa_adjoint_block_count(job), sizeof *s->done);
         ewa_release(context, s->camera, EWA_CAMERA_NUMBERS, sizeof *s->camera);
     }
     const uint64_t points = job->frame.point_count;
@@ -304,6 +336,7 @@ static ewa_status run(ewa_adjoint_job *job) {
     if (job->lists.item_count == 0)
         ewa_adjoint_warn_unseen(context, job->frame.point_count, job->tiles.width_px, job->tiles.height_px);
     set_units(job);
+    set_filling(job);
     EWA_TRY(reserve(job));
     EWA_TRY(ewa_parallel_within(context, "gradients", 0.1, 0.9, ewa_adjoint_tile, job, ewa_tiles_count(&job->tiles)));
     if (job->width)

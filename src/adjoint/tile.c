@@ -19,8 +19,7 @@ enum {
     LANES = EWA_EIGHT_LANES,
 };
 
-/// The power of two that is at most `size`, which is positive; 1 for what is not finite.
-static double power_of(double size) {
+double ewa_adjoint_power_of(double size) {
     enum { DIGITS = 52 };
     uint64_t bits;
     if (!(size > 0 && isfinite(size))) return 1;
@@ -37,12 +36,12 @@ void ewa_adjoint_scales(const ewa_adjoint_job *job, const ewa_reference_splat *s
     if (splat->by_rays || job->width <= EWA_MOMENT_OPACITY) return;
     // Places from the centre in the standard deviations of the filtered ellipse.
     const double *q = splat->inverse, determinant = q[0] * q[2] - q[1] * q[1];
-    const double x = 1 / power_of(sqrt(q[2] / determinant)), y = 1 / power_of(sqrt(q[0] / determinant));
+    const double x = 1 / ewa_adjoint_power_of(sqrt(q[2] / determinant)), y = 1 / ewa_adjoint_power_of(sqrt(q[0] / determinant));
     scales[EWA_MOMENT_FIRST] *= x, scales[EWA_MOMENT_FIRST + 1] *= y;
     scales[EWA_MOMENT_SECOND] *= x * x;
     scales[EWA_MOMENT_SECOND + 1] *= x * y;
     scales[EWA_MOMENT_SECOND + 2] *= y * y;
-    const double depth = units->depth / (job->frame.view.orthographic ? 1 : power_of(splat->center.z));
+    const double depth = units->depth / (job->frame.view.orthographic ? 1 : ewa_adjoint_power_of(splat->center.z));
     scales[EWA_MOMENT_DEPTH] = depth * x, scales[EWA_MOMENT_DEPTH + 1] = depth * y;
     scales[EWA_MOMENT_DEPTH + 2] = depth;
 }
@@ -297,8 +296,28 @@ static bool finalize_pixel(const tile_work *w, uint32_t x, uint32_t y, bool last
     return true;
 }
 
+/// Ends the pixels of a first surface that it fills, and those in which nothing is.
+static void end_filled(const tile_work *w) {
+    const ewa_adjoint_job *job = w->job;
+    ewa_adjoint_scratch *s = w->scratch;
+    const ewa_adjoint_area area = area_of(w, 0);
+    ewa_adjoint_filling filling = job->filling;
+    filling.rgba += 4 * ((size_t)w->place.y_px * job->tiles.width_px + w->place.x_px);
+    filling.width_px = w->place.width_px, filling.height_px = w->place.height_px;
+    double camera[EWA_CAMERA_NUMBERS];
+    job->kernels->fill(&area, &filling, s->done, camera);
+    for (int i = 0; i < EWA_CAMERA_NUMBERS && filling.with_camera; i++)
+        if (camera[i] != 0) ewa_exact_add(&s->camera[i], camera[i]);
+    for (uint32_t y = 0; y < w->place.height_px; y++)
+        for (uint32_t x = 0; x < w->place.width_px; x++) {
+            const uint32_t lane = y % EWA_EIGHT_ROWS * EWA_EIGHT_COLUMNS + x % EWA_EIGHT_COLUMNS;
+            if (s->done[y / EWA_EIGHT_ROWS * w->columns + x / EWA_EIGHT_COLUMNS] >> lane & 1) pixel_at(w, x, y)->through = 0;
+        }
+}
+
 /// Looks at the surface that has been gathered; returns whether there may be another behind it.
 static bool finalize_surface(const tile_work *w) {
+    if (w->surface_count == 0 && w->job->fills) end_filled(w);
     const bool last = w->surface_count + 1 == w->job->surface_count;
     bool open = false;
     for (uint32_t y = 0; y < w->place.height_px; y++)

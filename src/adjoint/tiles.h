@@ -45,6 +45,7 @@ typedef struct ewa_adjoint_scratch {
     uint64_t *blocks;                  ///< [surface][of `order`]: where each does (kernels.h)
     ewa_reference_layer *layers;       ///< [surface] of one pixel
     ewa_adjoint_pixel *pixels;         ///< [of a tile]
+    uint8_t *done;                     ///< [block]: lanes that are ended
     double largest_color;              ///< of the splats that it has projected
     double largest_depth;
     ewa_exact_sum *camera;             ///< [EWA_CAMERA_NUMBERS]; NULL: not wanted
@@ -64,6 +65,8 @@ typedef struct ewa_adjoint_job {
     uint32_t width;            ///< of the sums that are wanted: the first so many
     uint32_t surface_count;    ///< of a pixel at most
     ewa_adjoint_units units;
+    bool fills;                  ///< pixels that one surface fills end by `filling`
+    ewa_adjoint_filling filling; ///< of the whole picture
     ewa_adjoint_scratch *scratch; ///< [worker]
     uint32_t worker_count;
 } ewa_adjoint_job;
@@ -80,6 +83,9 @@ void ewa_adjoint_warn_unseen(ewa_context *context, uint64_t point_count, uint32_
 ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                 const ewa_frame_cotangent *cotangent, const ewa_gradient *gradient, uint32_t tile_px);
+
+/// The power of two that is at most `size`, which is positive; 1 for what is not finite.
+double ewa_adjoint_power_of(double size);
 
 /// Sets the units of a splat's sums. Powers of two.
 void ewa_adjoint_scales(const ewa_adjoint_job *job, const ewa_reference_splat *splat, double scales[EWA_MOMENT_COUNT]);
