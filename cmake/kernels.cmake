@@ -41,7 +41,7 @@ endif()
 
 # Those that take the longest come first.
 foreach(body surface/pipeline_add_all surface/pipeline_add_material surface/pipeline_add_opacity surface/pipeline_add_normal
-    surface/pipeline_add_color surface/pipeline adjoint/kernels cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/groups surface/pack
+    surface/pipeline_add_color surface/pipeline adjoint/kernels adjoint/discs cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/groups surface/pack
     texture/texture volume/gaussian volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)
@@ -49,6 +49,10 @@ foreach(body surface/pipeline_add_all surface/pipeline_add_material surface/pipe
     file(CONFIGURE OUTPUT ${source} CONTENT "#define WIDE_${SET}\n#include \"${body}_body.h\"\n")
     target_sources(ewa_objects PRIVATE ${source})
     set(flags ${flags_${set}})
+    if(body STREQUAL "adjoint/discs")
+      # Compilers make vectors of its loops where both sides of a choice may be computed. No number depends on it.
+      list(APPEND flags -fno-trapping-math)
+    endif()
     if(body STREQUAL "homogeneous/clip_batch")
       list(APPEND flags ${flags_quiet})
     endif()

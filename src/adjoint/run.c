@@ -88,6 +88,49 @@ static ewa_adjoint_range range_of(const ewa_tiles *tiles, const reach *found) {
     return x[1] && y[1] ? (ewa_adjoint_range){x[0] | y[0] << 16, x[1] | y[1] << 16} : (ewa_adjoint_range){0, 0};
 }
 
+/// Lists a splat in the tiles that it may reach; returns whether there are any.
+static bool list_splat(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint32_t point, const reach *found, uint32_t next,
+                       const ewa_bin_items *items) {
+    const ewa_adjoint_range range = job->ranges[point] = range_of(&job->tiles, found);
+    if (range.end == 0) return false;
+    job->begins[point] = nextafterf((float)found->begin, -INFINITY);
+    items->ids[next] = (int32_t)point, items->first[next] = (int32_t)range.first, items->end[next] = (int32_t)range.end;
+    s->largest_depth = fmax(s->largest_depth, found->end);
+    return true;
+}
+
+static void measure_color(ewa_adjoint_scratch *s, const double color[3]) {
+    for (int c = 0; c < 3; c++) s->largest_color = fmax(s->largest_color, fabs(color[c]));
+}
+
+/// Up to eight plain discs. Returns how many are listed, from `next` on.
+static uint32_t find_discs(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint32_t first, uint32_t count, uint32_t next,
+                           const ewa_bin_items *items) {
+    ewa_disc_points discs;
+    ewa_disc_splats splats;
+    uint32_t points[EWA_DISC_LANES], listed = 0;
+    for (uint32_t lane = 0; lane < count; lane++) points[lane] = first + lane;
+    ewa_adjoint_discs_read(&job->frame.reader, points, count, &discs);
+    job->disc_kernels->project(&job->disc_view, &discs, &splats);
+    for (uint32_t lane = 0; lane < count; lane++) {
+        reach found = {{splats.box[0][lane], splats.box[1][lane]}, {splats.box[2][lane], splats.box[3][lane]},
+                       job->disc_view.flat ? -splats.key_high[lane] : 1 / splats.key_high[lane],
+                       splats.center[2][lane] + splats.half_range[lane]};
+        if (splats.drawn[lane] < 0) {
+            ewa_surfel surfel;
+            bool drawable;
+            ewa_surfel_read(&job->frame.reader, points[lane], 1, &surfel, &drawable);
+            if (!find_reach_exactly(&job->frame.view, &surfel, &found)) continue;
+        }
+        if (splats.drawn[lane] == 0 || !list_splat(job, s, points[lane], &found, next + listed, items)) continue;
+        double color[3], opacity;
+        ewa_adjoint_read_color(&job->frame.reader, points[lane], color, &opacity);
+        measure_color(s, color);
+        listed++;
+    }
+    return listed;
+}
+
 static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, uint32_t count,
                             const ewa_bin_items *items) {
     const ewa_adjoint_job *job = data;
@@ -95,21 +138,20 @@ static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, u
     uint32_t next = first;
     ewa_surfel surfels[BLOCK_POINTS];
     bool drawable[BLOCK_POINTS];
-    for (uint32_t i = first; i < first + count; i++) {
+    memset(job->ranges + first, 0, count * sizeof *job->ranges);
+    for (uint32_t i = first; i < first + count && job->discs; i += EWA_DISC_LANES) {
+        const uint32_t left = first + count - i;
+        next += find_discs(job, s, i, left < EWA_DISC_LANES ? left : EWA_DISC_LANES, next, items);
+    }
+    for (uint32_t i = first; i < first + count && !job->discs; i++) {
         const uint32_t in_block = (i - first) % BLOCK_POINTS, left = first + count - i;
         if (in_block == 0)
             ewa_surfel_read(&job->frame.reader, i, left < BLOCK_POINTS ? left : BLOCK_POINTS, surfels, drawable);
-        const ewa_surfel *surfel = &surfels[in_block];
         reach found;
-        job->ranges[i] = (ewa_adjoint_range){0, 0};
-        if (!drawable[in_block] || !find_reach(&job->frame.view, surfel, &found)) continue;
-        const ewa_adjoint_range range = job->ranges[i] = range_of(&job->tiles, &found);
-        if (range.end == 0) continue;
-        job->begins[i] = nextafterf((float)found.begin, -INFINITY);
-        items->ids[next] = (int32_t)i, items->first[next] = (int32_t)range.first, items->end[next] = (int32_t)range.end;
+        if (!drawable[in_block] || !find_reach(&job->frame.view, &surfels[in_block], &found)) continue;
+        if (!list_splat(job, s, i, &found, next, items)) continue;
+        measure_color(s, surfels[in_block].color_linear);
         next++;
-        for (int c = 0; c < 3; c++) s->largest_color = fmax(s->largest_color, fabs(surfel->color_linear[c]));
-        s->largest_depth = fmax(s->largest_depth, found.end);
     }
     return next - first;
 }
@@ -216,6 +258,60 @@ static void pull_back_point(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, 
     store_point(to->tangent_v, point, 3, at.tangent_v);
 }
 
+/// Up to eight plain discs that are seen.
+static void pull_back_discs(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, const uint32_t *points, uint32_t count) {
+    const ewa_gradient *to = &job->gradient;
+    const double units[3] = {job->units.color, job->units.other, job->units.depth};
+    ewa_disc_points discs;
+    ewa_disc_cotangents by;
+    memset(&by, 0, sizeof by);
+    ewa_adjoint_discs_read(&job->frame.reader, points, count, &discs);
+    for (uint32_t lane = 0; lane < count; lane++)
+        for (uint32_t m = 0; m < job->width; m++) by.sums[m][lane] = (double)job->sums[(size_t)points[lane] * job->width + m];
+    job->disc_kernels->pull_back(&job->disc_view, &discs, units, &by);
+    for (uint32_t lane = 0; lane < count; lane++) {
+        if (by.drawn[lane] < 0) { // near
+            ewa_surfel surfel;
+            bool drawable;
+            ewa_surfel_read(&job->frame.reader, points[lane], 1, &surfel, &drawable);
+            pull_back_point(job, s, points[lane], &surfel, true);
+            continue;
+        }
+        double color[3], position[3], normal[3];
+        for (int c = 0; c < 3; c++) {
+            color[c] = by.sums[EWA_MOMENT_COLOR + c][lane] / units[0];
+            position[c] = by.position[c][lane], normal[c] = by.normal[c][lane];
+        }
+        const double opacity = by.sums[EWA_MOMENT_OPACITY][lane] / units[1];
+        store_point(to->color, points[lane], 3, color);
+        store_point(to->opacity, points[lane], 1, &opacity);
+        store_point(to->position, points[lane], 3, position);
+        store_point(to->normal, points[lane], 3, normal);
+        store_point(to->radius, points[lane], 1, &by.radius[lane]);
+        for (int i = 0; i < EWA_CAMERA_NUMBERS && s->camera; i++) ewa_exact_add(&s->camera[i], by.camera[i][lane]);
+    }
+}
+
+static void clear_points(double *stream, uint64_t first, uint64_t count, uint64_t components) {
+    if (stream) memset(stream + first * components, 0, count * components * sizeof *stream);
+}
+
+/// Points of a frame of plain discs.
+static void pull_back_disc_piece(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint64_t first, uint64_t end) {
+    const ewa_gradient *to = &job->gradient;
+    double *const of_one[] = {to->opacity, to->radius};
+    double *const of_three[] = {to->color, to->position, to->normal, to->tangent_u, to->tangent_v};
+    for (size_t i = 0; i < sizeof of_one / sizeof *of_one; i++) clear_points(of_one[i], first, end - first, 1);
+    for (size_t i = 0; i < sizeof of_three / sizeof *of_three; i++) clear_points(of_three[i], first, end - first, 3);
+    uint32_t points[EWA_DISC_LANES], count = 0;
+    for (uint64_t i = first; i < end; i++) {
+        if (has_sums(job, i)) points[count++] = (uint32_t)i;
+        if (count == 0 || (count < EWA_DISC_LANES && i + 1 < end)) continue;
+        pull_back_discs(job, s, points, count);
+        count = 0;
+    }
+}
+
 /// Points that are read together, as far as some are seen.
 static void pull_back_block(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint64_t first, uint64_t count) {
     ewa_surfel surfels[BLOCK_POINTS];
@@ -229,6 +325,10 @@ static void pull_back_piece(void *data, uint32_t index, uint32_t worker) {
     const ewa_adjoint_job *job = data;
     const uint64_t begin = (uint64_t)index * CHAIN_POINTS, left = job->frame.point_count - begin;
     const uint64_t end = begin + (left < CHAIN_POINTS ? left : CHAIN_POINTS);
+    if (job->width > EWA_MOMENT_OPACITY && job->discs) {
+        pull_back_disc_piece(job, &job->scratch[worker], begin, end);
+        return;
+    }
     if (job->width > EWA_MOMENT_OPACITY) {
         for (uint64_t i = begin; i < end; i += BLOCK_POINTS)
             pull_back_block(job, &job->scratch[worker], i, end - i < BLOCK_POINTS ? end - i : BLOCK_POINTS);
@@ -296,6 +396,8 @@ static ewa_status start(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
     job->worker_count = ewa_context_worker_count(context);
     job->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_adjoint_kernels);
+    job->discs = ewa_adjoint_discs_make(&job->frame, &job->disc_view);
+    job->disc_kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_disc_kernels);
     job->ranges = ewa_allocate(context, job->frame.point_count, sizeof *job->ranges);
     job->begins = ewa_allocate(context, job->frame.point_count, sizeof *job->begins);
     if (job->width) job->sums = ewa_allocate_zeroed(context, job->frame.point_count * job->width, sizeof *job->sums);

@@ -124,20 +124,23 @@ static int compare_splats(const void *a, const void *b) {
 /// Projects some more, and all that begin where the last of them does.
 static void project_more(const tile_work *w) {
     ewa_adjoint_scratch *s = w->scratch;
-    uint32_t k = s->splat_count, run = k; // first of those that begin at one depth
-    for (; k < w->count; k++) {
-        const bool begins_anew = k == run || begin_of(w, k) != begin_of(w, run);
-        if (begins_anew && k >= s->splat_count + CHUNK_SPLATS) break;
-        if (begins_anew && k - run > 1) qsort(s->order + run, k - run, sizeof *s->order, compare_splats);
-        if (begins_anew) run = k;
-        ewa_surfel surfel;
-        ewa_reference_splat *splat = &s->splats[k];
-        ewa_reference_frame_project(&w->job->frame, s->near_first[k] & UINT32_MAX, 1, &surfel, splat);
-        if (!splat->drawn) *splat = (ewa_reference_splat){.drawn = false}; // in no pixel
-        s->order[k] = splat;
+    const uint32_t first = s->splat_count;
+    uint32_t end = first + CHUNK_SPLATS < w->count ? first + CHUNK_SPLATS : w->count;
+    while (end < w->count && begin_of(w, end) == begin_of(w, end - 1)) end++;
+    for (uint32_t k = first; k < end; k += CHUNK_SPLATS) {
+        uint32_t points[CHUNK_SPLATS];
+        const uint32_t here = end - k < CHUNK_SPLATS ? end - k : CHUNK_SPLATS;
+        for (uint32_t i = 0; i < here; i++) points[i] = (uint32_t)s->near_first[k + i];
+        ewa_adjoint_project(w->job, points, here, s->splats + k);
     }
-    if (k - run > 1) qsort(s->order + run, k - run, sizeof *s->order, compare_splats);
-    s->splat_count = k;
+    uint32_t run = first; // first of those that begin at one depth
+    for (uint32_t k = first; k < end; k++) {
+        if (begin_of(w, k) != begin_of(w, run)) run = k;
+        s->order[k] = &s->splats[k];
+        const bool ends = k + 1 == end || begin_of(w, k + 1) != begin_of(w, run);
+        if (ends && k > run) qsort(s->order + run, k + 1 - run, sizeof *s->order, compare_splats);
+    }
+    s->splat_count = end;
 }
 
 // ---- Surfaces

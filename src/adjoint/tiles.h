@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_ADJOINT_TILES_H
 #define EWA_SRC_ADJOINT_TILES_H
 
+#include "adjoint/discs.h"
 #include "adjoint/exact.h"
 #include "adjoint/kernels.h"
 #include "ewa/adjoint.h"
@@ -67,6 +68,9 @@ typedef struct ewa_adjoint_job {
     ewa_adjoint_units units;
     bool fills;                  ///< pixels that one surface fills end by `filling`
     ewa_adjoint_filling filling; ///< of the whole picture
+    bool discs;            ///< all points are discs without clip lines: those that are not near go eight at a time
+    ewa_disc_view disc_view;
+    const ewa_disc_kernels *disc_kernels;
     ewa_adjoint_scratch *scratch; ///< [worker]
     uint32_t worker_count;
 } ewa_adjoint_job;
@@ -83,6 +87,18 @@ void ewa_adjoint_warn_unseen(ewa_context *context, uint64_t point_count, uint32_
 ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                 const ewa_frame_cotangent *cotangent, const ewa_gradient *gradient, uint32_t tile_px);
+
+/// Whether a frame has plain discs alone, and what they need of it.
+bool ewa_adjoint_discs_make(const ewa_reference_frame *frame, ewa_disc_view *view);
+
+/// Reads up to eight points; the last fills lanes without one.
+void ewa_adjoint_discs_read(const ewa_surfel_reader *reader, const uint32_t *points, uint32_t count, ewa_disc_points *to);
+
+/// Reads the linear colour of a point, and its opacity.
+void ewa_adjoint_read_color(const ewa_surfel_reader *reader, uint64_t point, double color[3], double *opacity);
+
+/// Projects points; one that is not drawn is in no pixel.
+void ewa_adjoint_project(const ewa_adjoint_job *job, const uint32_t *points, uint32_t count, ewa_reference_splat *splats);
 
 /// The power of two that is at most `size`, which is positive; 1 for what is not finite.
 double ewa_adjoint_power_of(double size);
