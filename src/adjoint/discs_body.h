@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The kernels of discs.h. Loops over lanes are written as for one disc, without branches; compilers make vectors of them.
+// The kernels of discs.h (docs/math.md sections 3 to 6 and 15). Loops over lanes are written as for one disc, without branches; compilers make vectors of them.
 // Each function is that of the same name in src/reference, for discs without clip lines that are not near.
 #include "adjoint/disc_back_body.h"
 
