@@ -344,8 +344,9 @@ class PyVista(Both):
         numbers = pv.Sphere()  # with normals, behind which VTK's files have more arrays
         numbers["heat"], numbers["radius"] = numbers.points[:, 2], numbers.points[:, 0]
         numbers.cell_data["heat"] = np.arange(numbers.n_cells, dtype=np.float32)
+        numbers["part"] = np.arange(numbers.n_points) // 100
         numbers.save(self.path("numbers.vtp"))
-        for name in ("heat", "scalar_radius", "cell_heat"):
+        for name in ("heat", "part", "scalar_radius", "cell_heat"):
             pixels = []
             for thing in (numbers, self.path("numbers.vtp")):
                 scene = ewa.Scene()

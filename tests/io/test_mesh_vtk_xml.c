@@ -153,6 +153,9 @@ static void make_grid(writer *w, int storage, bool big_endian, bool two_pieces) 
         put_array(w, "UInt8", "Name=\"rgb\" NumberOfComponents=\"3\"", 27, colors);
         put_array(w, "UInt8", "Name=\"second\" NumberOfComponents=\"3\"", 27, CUBE);
         put_array(w, "Float32", "Name=\"Normals\" NumberOfComponents=\"3\"", 27, normals);
+        const double far[9] = {5e9}, part[9] = {0, 0, 0, 0, 7 + piece};
+        put_array(w, "Int64", "Name=\"part\"", 9, part);
+        put_array(w, "Int64", "Name=\"far\"", 9, far);
         put(w, "</PointData>\n<CellData>\n");
         const double id[2] = {10 * piece + 1, 10 * piece + 2};
         put_array(w, "UInt8", "Name=\"no color\" NumberOfComponents=\"3\"", 6, CUBE);
@@ -187,6 +190,15 @@ CASE(test_storages) {
             assert_float_equal(end, (way & 2) ? 6 : 1, 0);
             const ewa_attribute *numbers = ewa_cloud_find(mesh.attributes, "t"), *second = ewa_cloud_find(mesh.attributes, "second");
             assert_true(numbers->type == EWA_F64 && second->type == EWA_U8 && second->component_count == 3);
+            const ewa_attribute *part = ewa_cloud_find(mesh.attributes, "part"); // of eight bytes, which fit into four
+            assert_true(part->type == EWA_I32 && ewa_cloud_find(mesh.attributes, "far")->type == EWA_F64);
+            double highest = 0;
+            for (uint32_t i = 0; i < mesh.vertex_count; i++) {
+                double number;
+                ewa_attribute_read_f64(part, i, 1, &number);
+                highest = fmax(highest, number);
+            }
+            assert_float_equal(highest, (way & 2) ? 8 : 7, 0);
             assert_null(ewa_cloud_find(mesh.attributes, "no_color")); // of cells whose points have colours
             const ewa_attribute *ids = ewa_cloud_find(mesh.attributes, "id");
             for (uint32_t i = 0; i < 3 * mesh.triangle_count; i++) {

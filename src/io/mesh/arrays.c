@@ -134,6 +134,15 @@ static void say_of_cells(const ewa_mesh_build *build) {
                    build->source->name, names);
 }
 
+/// The type that vertices get: of wide whole numbers one of four bytes, where that holds all of them.
+static ewa_type final_type(const ewa_mesh_array *array) {
+    const double *numbers = array->values.items;
+    const uint64_t count = array->wide ? array->values.count * array->component_count : 0;
+    for (uint64_t i = 0; i < count; i++)
+        if (!(numbers[i] >= INT32_MIN && numbers[i] <= INT32_MAX && numbers[i] == floor(numbers[i]))) return array->type;
+    return array->wide ? EWA_I32 : array->type;
+}
+
 ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, const uint32_t *cells, size_t stride,
                                 ewa_cloud *cloud) {
     const ewa_mesh_array *arrays = build->arrays.items;
@@ -141,19 +150,23 @@ ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *pla
     if (!cells) say_of_cells(build);
     for (uint64_t a = 0; a < build->arrays.count; a++) {
         const ewa_mesh_array *array = &arrays[a];
-        const uint32_t bytes = array->values.item_bytes, *numbers = array->of_cells ? cells : places;
+        const ewa_type type = final_type(array);
+        const uint32_t *numbers = array->of_cells ? cells : places;
+        const size_t number_bytes = ewa_type_bytes(type), bytes = array->component_count * number_bytes;
         void *data;
         if (array->of_cells && !cells) continue;
         EWA_TRY(ewa_memory_check(build->context, count * bytes, "%s: array %s", build->source->name, array->name));
-        EWA_TRY(ewa_cloud_add(cloud, array->name, array->type, array->component_count, &data));
+        EWA_TRY(ewa_cloud_add(cloud, array->name, type, array->component_count, &data));
         uint8_t *to = data;
         for (uint64_t i = 0; i < count; i++, to += bytes) {
             const uint64_t place = numbers ? numbers[i * stride] : i;
-            if (place < array->values.count)
+            const bool is_there = place < array->values.count;
+            if (is_there && type == array->type) {
                 memcpy(to, (const uint8_t *)array->values.items + place * bytes, bytes);
-            else
-                for (uint32_t c = 0; c < array->component_count; c++)
-                    store(array->type, NAN, to + c * ewa_type_bytes(array->type));
+                continue;
+            }
+            const double *wide = is_there ? (const double *)array->values.items + place * array->component_count : NULL;
+            for (uint32_t c = 0; c < array->component_count; c++) store(type, wide ? wide[c] : NAN, to + c * number_bytes);
         }
     }
     return EWA_OK;

@@ -69,6 +69,7 @@ typedef struct ewa_mesh_array {
     ewa_type type;
     uint32_t component_count; ///< 1 to 4
     bool of_cells;
+    bool wide; ///< whole numbers of eight bytes, kept as doubles until all are known
     ewa_mesh_list values; ///< item_bytes: of one place or cell
 } ewa_mesh_array;
 

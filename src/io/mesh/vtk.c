@@ -293,6 +293,7 @@ static ewa_status take_data(vtk_reader *r, ewa_text name, const ewa_vtk_type *ty
     if (of_data && (r->of_cells || (r->of_points && count == r->build->positions.count)))
         EWA_TRY(ewa_mesh_find_array(r->build, r->of_cells, name, ewa_vtk_kept_type(type), components, 0, &array));
     if (!array) return skip_numbers(r, type, all);
+    array->wide |= type->bytes == 8 && type->kind != 'f';
     EWA_TRY(begin_numbers(r, type, all));
     for (uint64_t i = 0; i < count; i++) {
         double numbers[4];

@@ -18,7 +18,7 @@ typedef struct ewa_vtk_type {
     char kind;      ///< f, i, u
 } ewa_vtk_type;
 
-/// The type that numbers are kept as: the same, doubles for whole ones of eight bytes, which they are exact for up to 2^53.
+/// The type that numbers are read as: the same, doubles for whole ones of eight bytes, which they are exact for up to 2^53.
 static inline ewa_type ewa_vtk_kept_type(const ewa_vtk_type *type) {
     const bool is_signed = type->kind == 'i';
     if (type->bytes == 8) return EWA_F64;

@@ -222,6 +222,7 @@ static ewa_status read_named(xml_mesh *m, const ewa_xml_tag *tag, bool of_cells,
     ewa_mesh_array *array;
     ewa_status status = ewa_mesh_find_array(m->build, of_cells, (ewa_text){name, strlen(name)}, ewa_vtk_kept_type(&n.type),
                                             components, first, &array);
+    if (array) array->wide |= n.type.bytes == 8 && n.type.kind != 'f';
     for (uint64_t i = 0; i < count && array && status == EWA_OK; i++) {
         double values[4];
         for (uint64_t c = 0; c < components && status == EWA_OK; c++) status = take_number(&n, &values[c]);
