@@ -55,6 +55,7 @@ typedef struct estimate_job {
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out, *surfaceness_out, *curvature_out;
     ewa_attribute position;
     sight sight;          // where points were seen from, if normals are to point there
+    sight_grid grid;      // whether each point stands for a cell
     counter *counters;    // per worker
     local_batch *batches; // per worker: neighbours of a block; later places that wait to be settled together
 } estimate_job;
@@ -227,6 +228,16 @@ static void note_borders(const estimate_job *job, const local_batch *batch, uint
     }
 }
 
+/// How far beyond the outermost samples a place's surface ends, as ewa_sight_beyond() says.
+static float beyond_of(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane) {
+    uint32_t count;
+    double p[3], normal[3];
+    if (!job->grid.given) return 0;
+    ewa_attribute_read_f64(&job->position, ewa_neighbours_points(job->neighbours, place, &count)[0], 1, p);
+    for (int c = 0; c < 3; c++) normal[c] = (double)s->normal[c][lane];
+    return ewa_sight_beyond(&job->grid, p, normal);
+}
+
 /// Settles the places that wait, and empties their list.
 static void settle(const estimate_job *job, local_batch *batch) {
     const uint32_t count = batch->lane_count;
@@ -251,6 +262,8 @@ static void settle(const estimate_job *job, local_batch *batch) {
     for (uint32_t lane = 0; lane < count; lane++)
         sizes.radius[lane] = (float)settle_lane(job, batch, lane, (double)sizes.around[lane],
                                                 (double)sizes.limit[lane], &s);
+    for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++)
+        sizes.beyond[lane] = beyond_of(job, batch->place[lane < count ? lane : 0], &s, lane);
     local_border border;
     const uint32_t lanes = ~0u >> (32 - count);
     note_borders(job, batch, job->kernels->border(batch, &s, &sizes, &border) & lanes, &border);
@@ -484,6 +497,7 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
                         .position = *ewa_cloud_find(cloud, EWA_POSITION)};
     ewa_neighbours *neighbours = NULL;
     ewa_status status = ewa_sight_make(cloud, options, &job.sight);
+    job.grid = ewa_sight_grid(cloud, &job.sight);
     if (status == EWA_OK)
         status = ewa_neighbours_create(ewa_cloud_context(cloud), &job.position,
                                        (uint32_t)ewa_cloud_point_count(cloud), &neighbours);

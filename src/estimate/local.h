@@ -61,6 +61,7 @@ typedef struct local_sizes {
     float farthest[EWA_BLOCK_LANES];            ///< distance of the farthest neighbour
     float radius[EWA_BLOCK_LANES];              ///< of the place's disc
     float limit[EWA_BLOCK_LANES];               ///< of radii that close gaps
+    float beyond[EWA_BLOCK_LANES]; ///< spacings from the outermost samples to the surface's end; 0: by how these lie
 } local_sizes;
 
 /// Where a surface ends: at a plane across it, so far from the place in a unit direction.

@@ -146,7 +146,8 @@ static uint32_t find_border(local_batch *batch, const local_surface *surface, co
     vec axes[2];
     face_missing(batch, rows, &f, axes);
     const outward out = find_outward(batch, rows, spacing);
-    const wf end = wf_add(out.reach, wf_mul(spacing, spacings_beyond(batch, rows, &out, spacing)));
+    const wf known = wf_load(sizes->beyond), lies = spacings_beyond(batch, rows, &out, spacing);
+    const wf end = wf_add(out.reach, wf_mul(spacing, wf_select(wf_lt(wf_set(0), known), known, lies)));
     const wf missing = count_missing(batch, rows, &out, wf_mul(spacing, wf_set(BORDER_CLEAR)));
     found = wm_and(found, wm_and(wf_le(wf_set(BORDER_MISSING), missing), wf_lt(end, radius)));
     v_store(border->direction, v_add(v_scale(axes[0], out.x), v_scale(axes[1], out.y)));

@@ -14,6 +14,9 @@ static const char *skip_space(const char *text, const char *end) {
     return text;
 }
 
+/// A sample's half of a cell, in cells, and the least cosine between normal and way to the eye for which it is reckoned.
+static const double HALF_CELL = 0.5, STEEPEST = 0.25;
+
 /// Reads digits; returns behind them.
 static const char *read_digits(const char *text, const char *end, double *value, int *count) {
     for (*count = 0; text < end && *text >= '0' && *text <= '9'; text++, (*count)++)
@@ -116,4 +119,30 @@ bool ewa_sight_is_behind(const sight *from, uint32_t point, const double p[3], c
     double towards = 0;
     for (int c = 0; c < 3; c++) towards += (from->place[index][c] - p[c]) * (double)normal[c];
     return towards < 0;
+}
+
+sight_grid ewa_sight_grid(const ewa_cloud *cloud, const sight *from) {
+    sight_grid grid = {.given = false};
+    if (from->kind == SIGHT_SCANNERS && from->place_count == 1) {
+        grid.given = true;
+        for (int c = 0; c < 3; c++) grid.eye[c] = from->place[0][c];
+    } else if (ewa_cloud_note(cloud, "file.organised", NULL)) {
+        grid.given = true;
+        ewa_cloud_origin(cloud, grid.eye);
+        for (int c = 0; c < 3; c++) grid.eye[c] = 0 - grid.eye[c];
+    }
+    return grid;
+}
+
+float ewa_sight_beyond(const sight_grid *grid, const double p[3], const double normal[3]) {
+    double along = 0, length2 = 0;
+    for (int c = 0; c < 3 && grid->given; c++) {
+        const double d = grid->eye[c] - p[c];
+        along += d * normal[c];
+        length2 += d * d;
+    }
+    if (!(length2 > 0)) return 0;
+    // A cell is 1 / sqrt(cosine) spacings long across the border, half of it belongs to the outermost sample.
+    const double cosine = fabs(along) / sqrt(length2);
+    return (float)(HALF_CELL / sqrt(cosine > STEEPEST ? cosine : STEEPEST));
 }

@@ -4,8 +4,8 @@
 // Tests of src/estimate/local_border_body.h and local_body.h: where samples end, and what is no surface.
 #include "prepare/square.h"
 
-/// Estimates a sampled square, with or without a hole of radius 12 in its middle.
-static ewa_cloud *with_borders(ewa_context *context, sampling kind, ewa_surfel_shape shape, bool hole) {
+/// Samples a square, with or without a hole of radius 12 in its middle.
+static ewa_cloud *without_borders(ewa_context *context, sampling kind, bool hole) {
     static float xyz[3 * MAXIMUM];
     uint32_t count = sample_square(kind, xyz), kept = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -16,6 +16,12 @@ static ewa_cloud *with_borders(ewa_context *context, sampling kind, ewa_surfel_s
     ewa_cloud *cloud = check_cloud_of(context, kept);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &data), EWA_OK);
     memcpy(data, xyz, 3 * kept * sizeof *xyz);
+    return cloud;
+}
+
+/// The same, estimated.
+static ewa_cloud *with_borders(ewa_context *context, sampling kind, ewa_surfel_shape shape, bool hole) {
+    ewa_cloud *cloud = without_borders(context, kind, hole);
     ewa_estimate_options options = check_estimate_options();
     options.shape = shape;
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
@@ -58,6 +64,37 @@ TEST_ON(test_borders, 2) {
         assert_true(near >= 4 * (SIDE - 16) && off / (double)near < 0.4 && over < 3);
         ewa_cloud_destroy(&cloud);
     }
+}
+
+/// A sample of a camera's grid stands for its cell: half of one lies beyond the outermost, seen from the eye, which is the origin.
+TEST_ON(test_cells, 2) {
+    static const double heights[] = {0, 1e4, 1e-3}; // of the eye over the plane; the first has no grid
+    double mean[3] = {0};
+    ewa_cloud *clouds[3];
+    for (int k = 0; k < 3; k++) {
+        clouds[k] = without_borders(context, SCATTERED, false);
+        if (k) assert_int_equal(ewa_cloud_set_note(clouds[k], "file.organised", "64 x 64", 7), EWA_OK);
+        if (k) ewa_cloud_set_origin(clouds[k], (const double[3]){SIDE, SIDE, -heights[k]});
+        const ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&clouds[k], &options), EWA_OK);
+    }
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(clouds[0]); i++) {
+        double length[3];
+        for (int k = 0; k < 3; k++) {
+            const float *to = check_stream(clouds[k], EWA_BORDER) + 3 * i;
+            length[k] = hypot((double)to[0], (double)to[1]);
+        }
+        if (!(length[0] > 0 && length[1] > 0 && length[2] > 0)) continue;
+        for (int k = 0; k < 3; k++) mean[k] += length[k];
+        count++;
+    }
+    print_message("%llu places: %.3f, %.3f, %.3f spacings\n", (unsigned long long)count, mean[0] / (double)count, mean[1] / (double)count,
+                  mean[2] / (double)count);
+    assert_true(count > 100);
+    assert_true(fabs(mean[1] - mean[0] - 0.3 * (double)count) < 0.1 * (double)count);
+    assert_true(fabs(mean[2] - mean[1] - 0.5 * (double)count) < 0.1 * (double)count);
+    for (int k = 0; k < 3; k++) ewa_cloud_destroy(&clouds[k]);
 }
 
 /// What has no border gets no stream; axes get clip lines where discs get borders.

@@ -57,6 +57,7 @@ static void measure_all(const local_kernels *kernels, local_batch *batch, told *
         sizes.around[lane] = t->around[lane], sizes.farthest[lane] = sqrtf(t->farthest2[lane]);
         limit[lane] = sizes.limit[lane] = 1.6f * t->around[lane];
         sizes.radius[lane] = 1.4f * t->around[lane];
+        sizes.beyond[lane] = batch->place[lane] % 2 ? 0.5f : 0;
     }
     kernels->enclose(batch, LOCAL_REACH | LOCAL_SHAPE, NULL, limit, &t->surface);
     t->ends = kernels->border(batch, &t->surface, &sizes, &t->border);
