@@ -65,12 +65,14 @@ endif
 
 build: setup
 	@echo "Building build/release"
-	$(call quietly,cmake --preset release)
+	$(call quietly,cmake --preset release -DEWA_BUILD_TESTS=ON -DEWA_BUILD_EXAMPLES=ON)
 	$(call quietly,cmake --build build/release -j $(JOBS))
 
-program: setup
+# Of packages what the program needs; its window and the import of rare meshes are built where theirs are there.
+program:
+	@sh tools/setup.sh --program
 	@echo "Building $(EWA)"
-	$(call quietly,cmake --preset release)
+	$(call quietly,cmake --preset release $(if $(wildcard build/release/CMakeCache.txt),,-DEWA_BUILD_TESTS=OFF -DEWA_BUILD_EXAMPLES=OFF))
 	$(call quietly,cmake --build build/release -j $(JOBS) --target ewa)
 
 measure: build

@@ -147,19 +147,9 @@ def jobs(data):
     return table(["surfels", "s", "MiB", "load, ms", "surfels", "render", "write", "the rest", "best peer"], rows)
 
 
-def avx2(data):
-    rows = []
-    ones = {(r["label"], r["cpu"]): r for r in frames_of(data, 2, "all") + frames_of(data, 2, "avx2")}
-    for (label, cpu), row in ones.items():
-        if cpu == "avx2":
-            rows.append([label, figure(ones[label, "all"]["median_ms"]), figure(row["median_ms"]),
-                         figure(row["ratio_to_all_sets"])])
-    return table(["2 threads", "AVX-512, ms", "AVX2, ms", "ratio"], rows)
-
-
 TABLES = {"clock": clock, "goals": goals, "frames": frames, "cycles": cycles, "peer": peer,
           "against": against, "closed": closed,
-          "stages": stages, "jobs": jobs, "avx2": avx2}
+          "stages": stages, "jobs": jobs}
 
 
 def main():

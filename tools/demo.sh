@@ -18,4 +18,5 @@ name=$(basename "$file")
 picture=$folder/${name%.*}.png
 "$ewa" render "$file" -o "$picture" --verbose
 echo "The picture is $(cd "$(dirname "$picture")" && pwd)/$(basename "$picture")"
-echo "To look around in it: $ewa view $file"
+if [ -x "$(dirname "$ewa")/../viewer/sdl/ewa-view" ]; then window=""; else window="make, then "; fi
+echo "To look around in it: $window$ewa view $file"

@@ -4,9 +4,17 @@
 #
 # Installs the Debian packages that building and testing need, when they are missing and we may; otherwise prints the
 # line to type and fails. Calls no package manager when everything is there.
+#   setup.sh [--program] [PACKAGE...]     --program: what the program needs, without window, graphics processors, MPI, Python and tests
 set -eu
 
-packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev libassimp-dev zlib1g-dev libzstd-dev liblzma-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri glslang-tools libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
+packages="build-essential cmake ninja-build pkg-config libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev zlib1g-dev libzstd-dev liblzma-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev"
+further="libcmocka-dev libassimp-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri glslang-tools libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
+modules="spng libdeflate OpenEXR libcjson libjpeg libwebp libtiff-4 expat zlib libzstd liblzma"
+if [ "${1:-}" = --program ]; then
+    shift
+else
+    packages="$packages $further" modules="$modules cmocka"
+fi
 
 # A package may be there for several architectures, or for another one alone; where it cannot be there for two, ours would push the
 # other out, which nobody has asked for.
@@ -36,7 +44,8 @@ if ! command -v apt-get >/dev/null 2>&1; then
     for tool in cc cmake ninja pkg-config; do
         command -v $tool >/dev/null 2>&1 || needs_tools="$needs_tools $tool"
     done
-    if [ -z "$needs_tools" ] && pkg-config --exists cmocka spng libdeflate OpenEXR libcjson libjpeg libwebp libtiff-4 expat zlib libzstd liblzma; then exit 0; fi
+    # shellcheck disable=SC2086
+    if [ -z "$needs_tools" ] && pkg-config --exists $modules; then exit 0; fi
     echo "Please install these first (names of Debian):$missing" >&2
     exit 1
 fi

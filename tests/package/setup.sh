@@ -25,23 +25,28 @@ there() {
             "$package" "$architecture" "$kind"
     done >>"$folder/dpkg/status"
 }
-# gives STATUS TEXT: what setup.sh says and asks; nothing where the text is empty.
+# gives STATUS TEXT [OPTION]: what setup.sh says and asks; nothing where the text is empty.
 gives() {
     rm -f "$folder/asked"
     status=0
-    DPKG_ADMINDIR=$folder/dpkg PATH=$folder/bin:$PATH sh "$setup" >"$folder/said" 2>&1 || status=$?
+    DPKG_ADMINDIR=$folder/dpkg PATH=$folder/bin:$PATH sh "$setup" ${3:-} >"$folder/said" 2>&1 || status=$?
     cat "$folder/asked" >>"$folder/said" 2>/dev/null || true
     [ "$status" = "$1" ] && if [ -n "$2" ]; then grep -qF -e "$2" "$folder/said"; else [ ! -s "$folder/said" ]; fi && return
     echo "setup.sh gives $status: $(cat "$folder/said"); not $1: $2" >&2
     exit 1
 }
-all=$(sed -n 's/^packages="\(.*\)"$/\1/p' "$setup")
+all=$(sed -n 's/^\(packages\|further\)="\([a-z].*\)"$/\2/p' "$setup")
 # shellcheck disable=SC2086
 set -- $all
 # Every package twice, those without code once: nothing is asked.
 there "$native" same "$@"
 there "$other" same "$@"
 gives 0 ""
+# Of the program: the window's are not asked for.
+sed -i "/^Package: libsdl2-dev\$/,/^\$/d" "$folder/dpkg/status"
+gives 0 "" --program
+gives 0 "install -y -q --no-install-recommends libsdl2-dev"
+there "$native" same libsdl2-dev
 # One for the other architecture alone, that can stand beside ours: ours is asked for, and nothing else.
 sed -i "/^Package: zlib1g-dev\$/{N;N;s/Architecture: $native/Architecture: $other/}" "$folder/dpkg/status"
 gives 0 "install -y -q --no-install-recommends zlib1g-dev"
