@@ -23,7 +23,7 @@ def picture(splats, camera, merge_px):
 width = int(sys.argv[1])
 print("| file | within, px | dB |\n|---|---:|---:|")
 for path in sys.argv[2:]:
-    splats = ewa.Splats(ewa.read_gaussians(path))
+    splats = ewa.Splats(ewa.read_gaussians(path), levels=True)
     size = (width, 3 * width // 4)
     camera = ewa.Camera.frame(splats, size=size)
     fine = picture(splats, camera.resized(FINER * size[0], FINER * size[1]), 0)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// One Gaussian for several, and what it takes: axes of ellipsoids, groups of neighbours.
+// One Gaussian for several, and what it takes: axes of ellipsoids, and what each counts for.
 #ifndef EWA_SRC_GAUSSIAN_MERGE_H
 #define EWA_SRC_GAUSSIAN_MERGE_H
 
@@ -31,11 +31,5 @@ void ewa_gaussian_weigh(const ewa_gaussians *set, size_t i, ewa_gaussian_mass *m
 /// the other. Returns the mean square of the distances of the members' centres from its own. Any thread.
 double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, const ewa_gaussian_mass *masses, uint32_t count,
                            ewa_gaussians *merged, size_t to);
-
-enum { EWA_GAUSSIAN_GROUP = 4 };
-
-/// Orders some of a set, of which none is the same twice, so that each EWA_GAUSSIAN_GROUP in a row are neighbours, and so on for groups
-/// of groups: they are divided along the widest axis of their centres, into halves of as many whole groups as there are. Any thread.
-void ewa_gaussians_group(const ewa_gaussians *set, uint32_t *members, uint32_t count);
 
 #endif

@@ -441,6 +441,18 @@ static ewa_status order_in_box(ewa_context *context, const ewa_attribute *positi
     return status;
 }
 
+void ewa_morton_codes(ewa_context *context, const ewa_bounds *box, const float *places, uint32_t count, uint64_t *codes) {
+    ewa_code_cells *const code_cells = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_code_cells);
+    ewa_grid grid;
+    if (!make_grid(box, &grid)) grid = (ewa_grid){.cells_per_half_unit = 0};
+    for (uint32_t done = 0; done < count; done += EWA_CELL_BLOCK) {
+        const uint32_t size = count - done < EWA_CELL_BLOCK ? count - done : EWA_CELL_BLOCK;
+        double points[3 * EWA_CELL_BLOCK];
+        for (uint32_t i = 0; i < 3 * size; i++) points[i] = (double)places[3 * (size_t)done + i];
+        code_cells(&grid, points, size, codes + done);
+    }
+}
+
 size_t ewa_morton_room_bytes(uint32_t count) { return count * (sizeof(item) + sizeof(uint64_t)); }
 
 ewa_status ewa_morton_order_in(ewa_context *context, const ewa_attribute *position, uint32_t count,

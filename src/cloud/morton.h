@@ -35,6 +35,10 @@ enum {
 ewa_status ewa_morton_order(ewa_context *context, const ewa_attribute *position, uint32_t count,
                             uint32_t *order, uint16_t *split_level, uint32_t *finite_count);
 
+/// Codes places, three finite numbers each, on the first grid that an order in `box` is by, whose upper bits are its larger cells: points come in
+/// the order of their codes, those of one code in that of finer grids.
+void ewa_morton_codes(ewa_context *context, const ewa_bounds *box, const float *places, uint32_t count, uint64_t *codes);
+
 /// Bytes of the room that ewa_morton_order_in() sorts in.
 size_t ewa_morton_room_bytes(uint32_t count);
 

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Levels of the resident form: the splats of a part are divided along the widest axis of their centres, into halves of as many groups
-// of four as there are, until these are left. A group is one splat of level 1, four groups in a row one of level 2, and so on.
-// Each stands for the splats themselves, not for those of the level before.
+// Levels of the resident form: a tree over the splats of a part is cut into a quarter as many groups as there are splats for level 1, a sixteenth
+// for level 2, and so on. Each splat of a level stands for the splats of a group themselves, not for those of the level before.
 #include "volume/splat_levels.h"
 #include "base/base.h"
-#include "cloud/gaussian_merge.h"
+#include "cloud/gaussian_tree.h"
 #include "volume/splat_packets.h"
 
 #include <math.h>
 
-enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, MAX_MERGED = PART_SPLATS / EWA_GAUSSIAN_GROUP };
+_Static_assert((int)EWA_SPLAT_PART_PACKETS * (int)EWA_SPLAT_LANES <= (int)EWA_TREE_GAUSSIANS, "a tree has room for a part");
+
+enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, MAX_MERGED = PART_SPLATS / 4 };
 
 typedef struct level_scratch {
-    uint32_t members[PART_SPLATS];
-    ewa_gaussian_mass masses[PART_SPLATS]; ///< theirs
+    ewa_gaussian_tree tree; ///< of one part
     ewa_gaussians merged; ///< of one level
 } level_scratch;
 
@@ -28,11 +28,11 @@ typedef struct level_job {
 
 /// Fills one level of a part; returns the RMS distance, world units.
 static double make_level(const level_job *job, level_scratch *scratch, uint32_t part, uint32_t level, uint32_t count) {
-    const uint32_t size = 1u << 2 * level, merged_count = (count - 1) / size + 1;
+    const uint32_t merged_count = (count - 1) / (1u << 2 * level) + 1;
     double squares = 0, masses = 0;
+    ewa_gaussian_tree_cut(&scratch->tree, merged_count);
     for (uint32_t m = 0; m < merged_count; m++) {
-        const uint32_t first = m * size, members = count - first < size ? count - first : size;
-        const double apart2 = ewa_gaussians_merge(job->set, scratch->members + first, scratch->masses + first, members, &scratch->merged, m);
+        const double apart2 = ewa_gaussian_tree_merge(&scratch->tree, job->set, m, &scratch->merged, m);
         const float *scales = scratch->merged.scales + 3 * (size_t)m;
         const double mass = (double)scratch->merged.opacities[m] * (double)(scales[0] * scales[1] + scales[0] * scales[2] + scales[1] * scales[2]);
         squares += mass * apart2, masses += mass;
@@ -54,9 +54,8 @@ static void make_part(void *data, uint32_t part, uint32_t worker) {
     const uint32_t count = left < PART_SPLATS ? (uint32_t)left : PART_SPLATS;
     double low[3], high[3], squares = 0;
     for (uint32_t i = 0; i < count; i++) {
-        scratch->members[i] = job->order[begin + i];
         for (uint32_t k = 0; k < 3; k++) {
-            const double at = (double)set->centers[3 * (size_t)scratch->members[i] + k];
+            const double at = (double)set->centers[3 * (size_t)job->order[begin + i] + k];
             low[k] = i ? fmin(low[k], at) : at;
             high[k] = i ? fmax(high[k], at) : at;
         }
@@ -66,8 +65,7 @@ static void make_part(void *data, uint32_t part, uint32_t worker) {
         squares += (high[k] - low[k]) * (high[k] - low[k]);
     }
     made->radius = (float)(sqrt(squares) / 2 / unit * (1 + 1e-6));
-    ewa_gaussians_group(set, scratch->members, count);
-    for (uint32_t i = 0; i < count; i++) ewa_gaussian_weigh(set, scratch->members[i], &scratch->masses[i]);
+    ewa_gaussian_tree_make(&scratch->tree, set, job->order + begin, count);
     for (uint32_t level = 1; level <= EWA_SPLAT_LEVELS; level++)
         made->apart[level - 1] = (float)(make_level(job, scratch, part, level, count) / unit);
 }

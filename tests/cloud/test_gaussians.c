@@ -4,7 +4,7 @@
 // Sets of Gaussians: moved ones have the covariances and the colours that the map gives; surfels of them.
 #include "../check.h"
 
-#include "cloud/gaussian_merge.h"
+#include "cloud/gaussian_tree.h"
 #include "cloud/gaussian_turn.h"
 
 #include <math.h>
@@ -252,6 +252,56 @@ TEST_ON(merged_opacities, 1) {
         ewa_gaussians_free(&set);
         ewa_gaussians_free(&one);
     }
+}
+
+/// Cuts of trees over two thin rods, of which the second has one Gaussian of a hundred, over places that are the same, and over what cannot be
+/// seen: every member is in one group, and from twelve groups on none is of both rods.
+TEST_ON(groups, 1) {
+    enum { MANY = 3000 };
+    static const uint32_t group_counts[] = {1, 2, 3, 12, 47, 188, 750, MANY};
+    ewa_gaussian_tree *tree = malloc(sizeof *tree);
+    uint32_t *members = malloc(MANY * sizeof *members);
+    uint8_t *seen = malloc(MANY);
+    assert_true(tree && members && seen);
+    check_random random = {7};
+    for (int n = 0; n < 3; n++) {
+        ewa_gaussians set;
+        assert_int_equal(ewa_gaussians_create(context, MANY, 0, &set), EWA_OK);
+        for (uint32_t i = 0; i < MANY; i++) {
+            members[i] = (i * 7) % MANY; // 7 and MANY have no common divisor
+            const bool second = i % 100 == 99;
+            if (n == 0) set.centers[3 * i] = second ? 3 : -0.5f, set.centers[3 * i + 1] = (float)check_uniform(&random, -1, 1);
+            if (n == 2) set.centers[3 * i + 2] = (float)check_uniform(&random, -1, 1);
+            for (size_t k = 0; k < 3; k++) set.scales[3 * i + k] = 0.01f;
+            set.rotations[4 * i] = 1;
+            set.opacities[i] = n == 2 ? 0 : 0.5f;
+        }
+        ewa_gaussian_tree_make(tree, &set, members, MANY);
+        double before = INFINITY;
+        for (size_t c = 0; c < sizeof group_counts / sizeof *group_counts; c++) {
+            double cost = 0;
+            ewa_gaussian_tree_cut(tree, group_counts[c]);
+            assert_int_equal(tree->group_count, group_counts[c]);
+            memset(seen, 0, MANY);
+            for (uint32_t g = 0, first = 0; g < tree->group_count; g++) {
+                const ewa_gaussian_node *node = &tree->nodes[tree->groups[g]];
+                assert_int_equal(node->first, first);
+                first += node->count;
+                cost += node->cost;
+                for (uint32_t i = node->first; i < first; i++) {
+                    assert_false(seen[tree->members[i]]++);
+                    if (n == 0 && group_counts[c] >= 12) assert_int_equal(set.centers[3 * (size_t)tree->members[i]] > 0, set.centers[3 * (size_t)tree->members[node->first]] > 0);
+                }
+            }
+            assert_null(memchr(seen, 0, MANY));
+            assert_true(cost < before || n > 0);
+            before = cost;
+        }
+        ewa_gaussians_free(&set);
+    }
+    free(seen);
+    free(members);
+    free(tree);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -65,6 +65,7 @@ typedef struct ewa_gaussian_form {
     bool log_scales;     ///< scales are logarithms
     bool logits;         ///< opacities are logits
     const float *filter; ///< of Mip-Splatting: one standard deviation per Gaussian; NULL: none
+    uint64_t first, whole; ///< of a piece: number of its first Gaussian, and how many there are; 0, 0: it is all
 } ewa_gaussian_form;
 
 /// Makes scales, opacities and unit quaternions of what was read, and checks every number. Errors:

@@ -175,7 +175,12 @@ static ewa_status read_records(const ewa_gaussian_source *source, const ewa_ply_
     EWA_TRY(ewa_gaussians_ply_read_element(ply, header, from->element, &sink, &at));
     if (centers) ewa_gaussians_place(centers, set);
     if (labels) EWA_TRY(take_classes(source, labels, set));
-    const ewa_gaussian_form form = {.log_scales = true, .logits = true, .filter = filter};
+    const ewa_ply_element *element = from->element;
+    const ewa_gaussian_form form = {.log_scales = true,
+                                    .logits = true,
+                                    .filter = filter,
+                                    .first = element->before_count,
+                                    .whole = element->before_count + element->count + element->after_count};
     return ewa_gaussians_settle(source, &form, set);
 }
 
@@ -185,6 +190,7 @@ static ewa_status read_plain(const ewa_gaussian_source *source, const ewa_ply_so
     uint64_t at = header->body_at;
     EWA_TRY(find_columns(source, header, &from));
     EWA_TRY(ewa_gaussians_ply_skip_to(ply, header, from.element, &at));
+    at += from.element->before_count * from.element->record_bytes; // of pieces, whose records are all as long
     EWA_TRY(ewa_gaussians_make(source, from.element->count, 0, 0, from.sh_degree, set));
     set->flat = from.flat;
     set->antialiased = facts->filtered = from.filtered;
@@ -228,10 +234,9 @@ static void take_comment(void *user, const char *line) {
     }
 }
 
-static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *header, ewa_gaussians *set,
-                            ewa_gaussian_facts *facts) {
+/// Reads the element of a header, or the piece of it that the header says.
+static ewa_status read_element(const ewa_gaussian_source *source, const ewa_ply_header *header, ewa_gaussians *set, ewa_gaussian_facts *facts) {
     const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
-    EWA_TRY(ewa_ply_header_read(&ply, header));
     header_words words = {.z_up = false};
     ewa_ply_header_lines(&ply, header, take_comment, &words);
     EWA_TRY(read_plain(source, &ply, header, set, facts));
@@ -239,6 +244,36 @@ static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *h
     facts->up_world[2] = words.z_up;
     if (words.flat) ewa_gaussians_flatten(set);
     return EWA_OK;
+}
+
+static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *header, ewa_gaussians *set, ewa_gaussian_facts *facts) {
+    const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
+    EWA_TRY(ewa_ply_header_read(&ply, header));
+    return read_element(source, header, set, facts);
+}
+
+ewa_status ewa_gaussians_ply_pieces(const ewa_gaussian_source *source, ewa_ply_header *header, uint64_t *count) {
+    const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
+    columns from;
+    *count = 0;
+    if (!ewa_gaussians_ply_probe(source, is_plain, &(ewa_status){EWA_OK})) return EWA_OK;
+    EWA_TRY(ewa_ply_header_read(&ply, header));
+    EWA_TRY(find_columns(source, header, &from));
+    uint64_t at = header->body_at;
+    EWA_TRY(ewa_gaussians_ply_skip_to(&ply, header, from.element, &at));
+    if (header->encoding != EWA_PLY_ASCII && !from.element->list_count && !from.exact) *count = from.element->count;
+    return EWA_OK;
+}
+
+ewa_status ewa_gaussians_ply_piece(const ewa_gaussian_source *source, ewa_ply_header *header, uint64_t first, uint32_t count,
+                                   ewa_gaussians *set, ewa_gaussian_facts *facts) {
+    ewa_ply_element *element = &header->elements[ewa_ply_vertices(header) - header->elements];
+    const uint64_t whole = element->before_count + element->count + element->after_count;
+    element->before_count = first, element->count = count, element->after_count = whole - first - count;
+    *set = (ewa_gaussians){.context = NULL};
+    const ewa_status status = read_element(source, header, set, facts);
+    if (status != EWA_OK) ewa_gaussians_free(set);
+    return status;
 }
 
 static ewa_status read_ply(const ewa_gaussian_source *source, ewa_gaussians *set, ewa_gaussian_facts *facts) {

@@ -21,4 +21,13 @@ ewa_status ewa_gaussians_ply_read_element(const ewa_ply_source *ply, const ewa_p
                                           const ewa_ply_element *element, const ewa_ply_sink *sink,
                                           uint64_t *at);
 
+/// Reads the header of a PLY of 3DGS or 2DGS; `*count` gets its Gaussians where they can be read in pieces (binary, centres in floats), else 0.
+/// Errors: EWA_ERROR_FORMAT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_gaussians_ply_pieces(const ewa_gaussian_source *source, ewa_ply_header *header, uint64_t *count);
+
+/// Reads Gaussians [first, first + count), of which there are some, as ewa_gaussians_load() does; the header then says what the piece is. The
+/// caller frees the set. Errors: as ewa_gaussians_load().
+ewa_status ewa_gaussians_ply_piece(const ewa_gaussian_source *source, ewa_ply_header *header, uint64_t first, uint32_t count,
+                                   ewa_gaussians *set, ewa_gaussian_facts *facts);
+
 #endif

@@ -150,8 +150,9 @@ ewa_status ewa_gaussians_settle(const ewa_gaussian_source *source, const ewa_gau
     ewa_parallel(source->context, settle_piece, &job, PIECES);
     for (int piece = 0; piece < PIECES; piece++)
         if (job.faults[piece] != FAULT_NONE)
-            return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: Gaussian %u of %u: %s", source->name,
-                            job.at[piece], gaussians->count, reasons[job.faults[piece]]);
+            return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: Gaussian %llu of %llu: %s", source->name,
+                            (unsigned long long)(form->first + job.at[piece]),
+                            (unsigned long long)(form->whole ? form->whole : gaussians->count), reasons[job.faults[piece]]);
     return EWA_OK;
 }
 
