@@ -67,20 +67,43 @@ typedef struct ewa_adjoint_filling {
     double scales[EWA_CAMERA_NUMBERS]; ///< that the camera's terms are multiplied by before they are rounded
 } ewa_adjoint_filling;
 
-/// Loops over splats and pixels. Each splat has a set of blocks, a bit for each that its box touches, row by row: where it may count. What is not in
-/// the set is not looked at again. Boxes of more than 64 blocks have all bits, and are looked at as a whole.
-typedef struct ewa_adjoint_kernels {
-    /// Lowers the bounds to z + eps where splats count beyond what is passed, and makes their sets of blocks; returns the farthest bound
-    /// of all pixels.
-    double (*find)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks);
+/// A splat at a block's pixels: its depths, and the squares of its distances there, which the sums replace by what it weighs, 0
+/// where it does not count.
+typedef struct ewa_adjoint_sample {
+    double z[EWA_EIGHT_LANES], weight[EWA_EIGHT_LANES];
+} ewa_adjoint_sample;
 
-    /// Adds splats to the sums where they count up to the bounds, one after the other; those blocks are left in the sets.
-    void (*sum)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks);
+/// Where a splat counts in a surface. Of boxes of more than 64 blocks all bits are set, and nothing is kept.
+typedef struct ewa_adjoint_visit {
+    uint64_t found;  ///< a bit for each block that the splat's box touches, row by row: where it may count
+    uint64_t counts; ///< where it does
+    uint32_t first;  ///< of the samples of the blocks that were found; EWA_NO_SAMPLES: they are computed anew
+} ewa_adjoint_visit;
+
+#define EWA_NO_SAMPLES UINT32_MAX
+
+/// Samples of a tile.
+typedef struct ewa_adjoint_samples {
+    ewa_adjoint_sample *items;
+    uint32_t count, capacity;
+} ewa_adjoint_samples;
+
+/// Loops over splats and pixels.
+typedef struct ewa_adjoint_kernels {
+    /// Lowers the bounds to z + eps where splats count beyond what is passed, and makes their visits; returns the farthest bound
+    /// of all pixels.
+    double (*find)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, ewa_adjoint_samples *samples,
+                   ewa_adjoint_visit *visits);
+
+    /// Adds splats to the sums where they count up to the bounds, one after the other, and says where.
+    void (*sum)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count,
+                const ewa_adjoint_samples *samples, ewa_adjoint_visit *visits);
 
     /// Adds what a splat gets of the planes, which are cotangents by now, to the first `width` of its sums: terms times
     /// `scales`, each rounded to a whole number. Depths only with `with_depth`.
-    void (*gather)(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, uint32_t width, bool with_depth,
-                   const double scales[EWA_MOMENT_COUNT], int64_t sums[EWA_MOMENT_COUNT]);
+    void (*gather)(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const ewa_adjoint_samples *samples,
+                   const ewa_adjoint_visit *visit, uint32_t width, bool with_depth, const double scales[EWA_MOMENT_COUNT],
+                   int64_t sums[EWA_MOMENT_COUNT]);
 
     /// Ends the pixels of a first surface that it fills, showing one side and no clip line: sets cotangents of their sums in the
     /// planes, and in `camera`, if that is wanted, what directions to the eye give. Also ends pixels in which nothing is. `done` gets a bit for each lane

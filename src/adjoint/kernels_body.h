@@ -127,15 +127,35 @@ EIGHT bool weigh_block(const ewa_reference_splat *splat, const block *at, bool p
     return true;
 }
 
-/// Whether block `index` of a splat's box is in its set.
+/// What was found of a splat; its box decides whether samples are kept.
+EIGHT bool keeps_samples(const block_range *range, const ewa_adjoint_samples *samples) {
+    const uint32_t blocks = (range->end_column - range->first_column) * (range->end_row - range->first_row);
+    return blocks <= 64 && samples->count + blocks <= samples->capacity;
+}
+
+/// A sample as find() leaves it: beyond the cutoff and what is passed its square is infinite.
+EIGHT void keep_sample(const sample *s, ewa_adjoint_sample *to) {
+    d8_store(to->z, s->z);
+    d8_store(to->weight, d8_select(s->counts, s->distance2, d8_set(__builtin_inf())));
+}
+
+EIGHT void load_sample(const ewa_adjoint_sample *from, sample *s) {
+    s->z = d8_load(from->z), s->distance2 = d8_load(from->weight);
+    s->counts = d8_lt(s->distance2, d8_set(__builtin_inf()));
+}
+
+/// Whether block `index` of a splat's box is in a set.
 EIGHT bool is_in(uint64_t blocks, uint32_t index) { return index >= 64 || (blocks >> index & 1); }
 
 EIGHT uint64_t bit_of(uint32_t index) { return index < 64 ? UINT64_C(1) << index : 0; }
 
-EIGHT uint64_t find_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain) {
+EIGHT void find_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, ewa_adjoint_samples *samples,
+                      ewa_adjoint_visit *visit) {
     const block_range range = blocks_of(area, splat);
+    const bool keeps = plain && keeps_samples(&range, samples);
     uint64_t blocks = 0;
     uint32_t index = 0;
+    if (keeps) visit->first = samples->count;
     for (uint32_t row = range.first_row; row < range.end_row; row++)
         for (uint32_t column = range.first_column; column < range.end_column; column++, index++) {
             const block at = block_at(area, column, row);
@@ -145,19 +165,21 @@ EIGHT uint64_t find_splat(const ewa_adjoint_area *area, const ewa_reference_spla
             const d8 old = d8_load(bound), reached = d8_add(s.z, d8_set(splat->epsilon));
             if (!m8_any(m8_and(s.counts, d8_le(s.z, old)))) continue; // bounds only fall
             blocks |= bit_of(index);
+            if (keeps) keep_sample(&s, &samples->items[samples->count++]);
             d8_store(bound, d8_select(m8_and(s.counts, d8_lt(reached, old)), reached, old));
         }
-    return index > 64 ? UINT64_MAX : blocks;
+    visit->found = index > 64 ? UINT64_MAX : blocks;
 }
 
-static double find(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks) {
+static double find(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, ewa_adjoint_samples *samples,
+                   ewa_adjoint_visit *visits) {
     for (uint32_t k = 0; k < count; k++) {
-        blocks[k] = 0;
+        visits[k] = (ewa_adjoint_visit){.first = EWA_NO_SAMPLES};
         if (area->behind && splats[k]->concave) continue;
         if (is_plain(splats[k]))
-            blocks[k] = find_splat(area, splats[k], true);
+            find_splat(area, splats[k], true, samples, &visits[k]);
         else
-            blocks[k] = find_splat(area, splats[k], false);
+            find_splat(area, splats[k], false, samples, &visits[k]);
     }
     d8 farthest = d8_set(-__builtin_inf());
     for (size_t i = 0; i < (size_t)area->columns * area->rows; i++)
@@ -183,36 +205,49 @@ static void add_cut(const sample *s, double *planes) {
     for (int c = 0; c < 2; c++) add(planes + (EWA_PLANE_INWARD + c) * LANES, d8_mul(whole, s->inward[c]));
 }
 
-EIGHT uint64_t sum_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, uint64_t blocks) {
+/// `kept`: the splat is plain, and its samples have been kept.
+EIGHT void sum_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, bool kept,
+                     const ewa_adjoint_samples *samples, ewa_adjoint_visit *visit) {
     const block_range range = blocks_of(area, splat);
-    uint64_t left = 0;
+    uint64_t counts = 0;
     uint32_t index = 0;
     const double opacity = area->transparent ? splat->opacity : 1;
     const ewa_vec3 color = vec3_scale(splat->color, opacity), normal = splat->normal_world;
     const double parts[EWA_SIDE_PLANES] = {1, color.x, color.y, color.z, normal.x, normal.y, normal.z, 0, opacity};
     const size_t side = splat->is_back ? EWA_SIDE_PLANES * LANES : 0;
+    ewa_adjoint_sample *next = kept ? samples->items + visit->first : NULL;
     for (uint32_t row = range.first_row; row < range.end_row; row++)
         for (uint32_t column = range.first_column; column < range.end_column; column++, index++) {
-            if (!is_in(blocks, index)) continue;
+            if (!is_in(visit->found, index)) continue;
             const block at = block_at(area, column, row);
             sample s;
-            if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) continue;
-            left |= bit_of(index);
+            if (kept) {
+                ewa_adjoint_sample *of = next++;
+                load_sample(of, &s);
+                if (!weigh_block(splat, &at, true, &s)) continue;
+                d8_store(of->weight, s.weight);
+            } else if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) {
+                continue;
+            }
+            counts |= bit_of(index);
             for (int p = 0; p < EWA_SIDE_PLANES; p++)
                 add(at.planes + side + p * LANES, d8_mul(s.weight, p == EWA_PLANE_Z ? s.z : d8_set(parts[p])));
             if (!plain) add_cut(&s, at.planes);
         }
-    return index > 64 ? UINT64_MAX : left;
+    visit->counts = index > 64 ? UINT64_MAX : counts;
 }
 
-static void sum(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks) {
+static void sum(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count,
+                const ewa_adjoint_samples *samples, ewa_adjoint_visit *visits) {
     for (uint32_t k = 0; k < count; k++) {
         if (area->behind && splats[k]->concave)
-            blocks[k] = 0;
+            visits[k].counts = 0;
+        else if (visits[k].first != EWA_NO_SAMPLES)
+            sum_splat(area, splats[k], true, true, samples, &visits[k]);
         else if (is_plain(splats[k]))
-            blocks[k] = sum_splat(area, splats[k], true, blocks[k]);
+            sum_splat(area, splats[k], true, false, samples, &visits[k]);
         else
-            blocks[k] = sum_splat(area, splats[k], false, blocks[k]);
+            sum_splat(area, splats[k], false, false, samples, &visits[k]);
     }
 }
 
@@ -280,44 +315,63 @@ EIGHT void gain_block(const ewa_adjoint_area *area, const ewa_reference_splat *s
     }
     if (!plain && splat->by_rays) return;
     const d8 by_z = d8_load(of + EWA_PLANE_Z * LANES);
-    by_weight = d8_add(by_weight, d8_add(d8_mul(opacity, shown), d8_mul(s->z, by_z)));
+    by_weight = d8_add(by_weight, with_depth ? d8_add(d8_mul(opacity, shown), d8_mul(s->z, by_z)) : d8_mul(opacity, shown));
     if (!plain) by_weight = d8_add(by_weight, d8_keep(s->counts, by_cut(s, at->planes)));
     gain_kernel(splat, at, s, by_weight, scales, sums);
     if (with_depth) gain_depth(area, splat, at, s, by_z, scales, sums);
 }
 
-EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, bool plain, uint32_t width,
-                        bool with_depth, const double *scales, int64_t totals[EWA_MOMENT_COUNT]) {
+/// Adds whole numbers to totals, lane after lane, which no order changes.
+EIGHT void total_sums(const d8 sums[EWA_MOMENT_COUNT], int64_t totals[EWA_MOMENT_COUNT]) {
+    double lanes[EWA_MOMENT_COUNT][LANES];
+    for (int m = 0; m < EWA_MOMENT_COUNT; m++) d8_store(lanes[m], d8_sub(sums[m], d8_set(WHOLE)));
+    for (int m = 0; m < EWA_MOMENT_COUNT; m++) {
+        const double *of = lanes[m];
+        const double total = ((of[0] + of[4]) + (of[2] + of[6])) + ((of[1] + of[5]) + (of[3] + of[7]));
+        // Of colours beyond all range nothing is known, but that every order gives the same.
+        totals[m] += total > -0x1p52 && total < 0x1p52 ? (int64_t)total : 0;
+    }
+}
+
+EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, bool kept,
+                        const ewa_adjoint_samples *samples, const ewa_adjoint_visit *visit, uint32_t width, bool with_depth,
+                        const double *scales, int64_t totals[EWA_MOMENT_COUNT]) {
     const block_range range = blocks_of(area, splat);
+    const ewa_adjoint_sample *next = kept ? samples->items + visit->first : NULL;
     uint32_t index = 0;
     d8 sums[EWA_MOMENT_COUNT];
     bool any = false;
     for (int m = 0; m < EWA_MOMENT_COUNT; m++) sums[m] = d8_set(WHOLE);
     for (uint32_t row = range.first_row; row < range.end_row; row++)
         for (uint32_t column = range.first_column; column < range.end_column; column++, index++) {
-            if (!is_in(blocks, index)) continue;
+            if (!is_in(visit->found, index)) continue;
+            const ewa_adjoint_sample *of = kept ? next++ : NULL;
+            if (!is_in(visit->counts, index)) continue;
             const block at = block_at(area, column, row);
             sample s;
-            if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) continue;
+            if (kept)
+                s.weight = d8_load(of->weight), s.z = d8_load(of->z);
+            else if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s))
+                continue;
             any = true;
             gain_block(area, splat, &at, &s, plain, width, with_depth, scales, sums);
         }
-    for (uint32_t m = 0; m < EWA_MOMENT_COUNT && any; m++) {
-        const double total = d8_total(d8_sub(sums[m], d8_set(WHOLE))); // whole numbers, in any order
-        // Of colours beyond all range nothing is known, but that every order gives the same.
-        totals[m] += total > -0x1p52 && total < 0x1p52 ? (int64_t)total : 0;
-    }
+    if (any) total_sums(sums, totals);
 }
 
-static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, uint32_t width, bool with_depth,
-                   const double scales[EWA_MOMENT_COUNT], int64_t totals[EWA_MOMENT_COUNT]) {
+static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const ewa_adjoint_samples *samples,
+                   const ewa_adjoint_visit *visit, uint32_t width, bool with_depth, const double scales[EWA_MOMENT_COUNT],
+                   int64_t totals[EWA_MOMENT_COUNT]) {
+    const bool kept = visit->first != EWA_NO_SAMPLES;
     if (area->behind && splat->concave) return;
     if (!is_plain(splat))
-        gather_splat(area, splat, blocks, false, width, with_depth, scales, totals);
-    else if (with_depth || width <= EWA_MOMENT_OPACITY)
-        gather_splat(area, splat, blocks, true, width, with_depth, scales, totals);
+        gather_splat(area, splat, false, false, samples, visit, width, with_depth, scales, totals);
+    else if (kept && !with_depth && width > EWA_MOMENT_OPACITY && !area->transparent)
+        gather_splat(area, splat, true, true, samples, visit, EWA_MOMENT_COUNT, false, scales, totals);
+    else if (kept)
+        gather_splat(area, splat, true, true, samples, visit, width, with_depth, scales, totals);
     else
-        gather_splat(area, splat, blocks, true, EWA_MOMENT_COUNT, false, scales, totals);
+        gather_splat(area, splat, true, false, samples, visit, width, with_depth, scales, totals);
 }
 
 const ewa_adjoint_kernels EWA_VERSION(ewa_adjoint_kernels) = {.find = find, .sum = sum, .gather = gather, .fill = fill};

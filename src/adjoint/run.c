@@ -13,6 +13,8 @@ enum {
     CHAIN_POINTS = 1024, ///< points per piece of parallel work
     BLOCK_POINTS = 32,   ///< that are read together
     UNIT_BITS = 36,      ///< units per bound of a term
+    SPLAT_SAMPLES = 16,  ///< that are kept of a splat on the average
+    MAX_SAMPLES = 1 << 13, ///< of a tile: a megabyte
 };
 
 /// Where a splat may be seen: more than it is.
@@ -357,11 +359,13 @@ static ewa_status reserve(ewa_adjoint_job *job) {
         s->order = ewa_allocate(context, splats, sizeof *s->order);
         s->planes = ewa_allocate(context, s->plane_capacity, sizeof *s->planes);
         s->reached = ewa_allocate(context, surfaces, sizeof *s->reached);
-        s->blocks = ewa_allocate(context, surfaces * splats, sizeof *s->blocks);
+        s->visits = ewa_allocate(context, surfaces * splats, sizeof *s->visits);
+        s->samples.capacity = splats < MAX_SAMPLES / SPLAT_SAMPLES ? SPLAT_SAMPLES * splats : MAX_SAMPLES;
+        s->samples.items = ewa_allocate(context, s->samples.capacity, sizeof *s->samples.items);
         s->layers = ewa_allocate(context, surfaces, sizeof *s->layers);
         s->pixels = ewa_allocate(context, pixels, sizeof *s->pixels);
         s->done = ewa_allocate(context, ewa_adjoint_block_count(job), sizeof *s->done);
-        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->blocks || !s->layers || !s->pixels || !s->done)
+        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->visits || !s->samples.items || !s->layers || !s->pixels || !s->done)
             return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
@@ -376,7 +380,8 @@ static void release(ewa_adjoint_job *job) {
         ewa_release(context, s->splats, s->splat_capacity, sizeof *s->splats);
         ewa_release(context, s->order, s->splat_capacity, sizeof *s->order);
         ewa_release(context, s->planes, s->plane_capacity, sizeof *s->planes);
-        ewa_release(context, s->blocks, (size_t)job->surface_count * s->splat_capacity, sizeof *s->blocks);
+        ewa_release(context, s->visits, (size_t)job->surface_count * s->splat_capacity, sizeof *s->visits);
+        ewa_release(context, s->samples.items, s->samples.capacity, sizeof *s->samples.items);
         ewa_release(context, s->reached, job->surface_count, sizeof *s->reached);
         ewa_release(context, s->layers, job->surface_count, sizeof *s->layers);
         ewa_release(context, s->pixels, pixels, sizeof *s->pixels);

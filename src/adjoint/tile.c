@@ -170,9 +170,9 @@ static bool is_merged(const tile_work *w, uint32_t surface) {
     return layering->merge_last && surface + 1 == layering->most;
 }
 
-/// Where each splat may count in a surface.
-static uint64_t *blocks_of(const tile_work *w, uint32_t surface) {
-    return w->scratch->blocks + (size_t)surface * w->scratch->splat_capacity;
+/// Where each splat counts in a surface.
+static ewa_adjoint_visit *visits_of(const tile_work *w, uint32_t surface) {
+    return w->scratch->visits + (size_t)surface * w->scratch->splat_capacity;
 }
 
 /// Finds the next surface; returns how many splats may be part of it.
@@ -181,15 +181,15 @@ static uint32_t find_surface(const tile_work *w) {
     const ewa_adjoint_area area = area_of(w, w->surface_count);
     const bool merged = is_merged(w, w->surface_count);
     double farthest = INFINITY;
-    uint64_t *blocks = blocks_of(w, w->surface_count);
+    ewa_adjoint_visit *visits = visits_of(w, w->surface_count);
     uint32_t done = 0;
     while (done < w->count && (double)begin_of(w, done) <= farthest) {
         if (done == s->splat_count) project_more(w);
         const uint32_t left = s->splat_count - done, here = left < CHUNK_SPLATS ? left : CHUNK_SPLATS;
         if (merged)
-            memset(blocks + done, 0xff, here * sizeof *blocks); // wherever it is
+            for (uint32_t i = 0; i < here; i++) visits[done + i] = (ewa_adjoint_visit){UINT64_MAX, 0, EWA_NO_SAMPLES}; // wherever it is
         else
-            farthest = w->job->kernels->find(&area, s->order + done, here, blocks + done);
+            farthest = w->job->kernels->find(&area, s->order + done, here, &s->samples, visits + done);
         done += here;
     }
     return done;
@@ -334,7 +334,7 @@ static bool finalize_surface(const tile_work *w) {
 /// Adds to the sums of a point. Several tiles may do so at a time: whole numbers, in any order.
 static void add_to_point(const ewa_adjoint_job *job, uint32_t point, const int64_t sums[EWA_MOMENT_COUNT]) {
     const ewa_adjoint_range *range = &job->ranges[point];
-    const bool alone = range->end - range->first == (1 | 1 << 16);
+    const bool alone = job->worker_count == 1 || range->end - range->first == (1 | 1 << 16);
     int64_t *to = job->sums + (size_t)point * job->width;
     for (uint32_t m = 0; m < job->width; m++)
         if (alone)
@@ -345,7 +345,7 @@ static void add_to_point(const ewa_adjoint_job *job, uint32_t point, const int64
 
 static bool counts_anywhere(const tile_work *w, uint32_t splat) {
     bool counts = false;
-    for (uint32_t i = 0; i < w->surface_count; i++) counts |= splat < w->scratch->reached[i] && blocks_of(w, i)[splat] != 0;
+    for (uint32_t i = 0; i < w->surface_count; i++) counts |= splat < w->scratch->reached[i] && visits_of(w, i)[splat].counts != 0;
     return counts;
 }
 
@@ -362,7 +362,8 @@ static void gather_splats(const tile_work *w) {
         for (uint32_t i = 0; i < w->surface_count; i++) {
             const ewa_adjoint_area area = area_of(w, i);
             if (k < s->reached[i])
-                job->kernels->gather(&area, s->order[k], blocks_of(w, i)[k], job->width, job->cotangent.depth != NULL, scales, sums);
+                job->kernels->gather(&area, s->order[k], &s->samples, &visits_of(w, i)[k], job->width, job->cotangent.depth != NULL,
+                                     scales, sums);
         }
         add_to_point(job, (uint32_t)s->near_first[s->order[k] - s->splats], sums);
     }
@@ -381,13 +382,13 @@ void ewa_adjoint_tile(void *data, uint32_t index, uint32_t worker) {
         s->near_first[k] = place_of(job->begins[point], point);
     }
     if (w.count) qsort(s->near_first, w.count, sizeof *s->near_first, compare_places);
-    s->splat_count = 0;
+    s->splat_count = s->samples.count = 0;
     for (uint32_t i = 0; i < w.place.width_px * w.place.height_px; i++) s->pixels[i].through = 1;
     for (bool open = true; open && ewa_goes_on(job->frame.context, worker); w.surface_count++) {
         start_surface(&w);
         const ewa_adjoint_area area = area_of(&w, w.surface_count);
         s->reached[w.surface_count] = find_surface(&w);
-        job->kernels->sum(&area, s->order, s->reached[w.surface_count], blocks_of(&w, w.surface_count));
+        job->kernels->sum(&area, s->order, s->reached[w.surface_count], &s->samples, visits_of(&w, w.surface_count));
         open = finalize_surface(&w);
     }
     if (job->width) gather_splats(&w);

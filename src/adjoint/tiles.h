@@ -43,7 +43,8 @@ typedef struct ewa_adjoint_scratch {
     double *planes;                    ///< [surface][block][EWA_PLANES][EWA_EIGHT_LANES]
     size_t plane_capacity;
     uint32_t *reached;                 ///< [surface]: splats that may count, the first of `order`
-    uint64_t *blocks;                  ///< [surface][of `order`]: where each does (kernels.h)
+    ewa_adjoint_visit *visits;         ///< [surface][of `order`]: where each does
+    ewa_adjoint_samples samples;       ///< of the tile's surfaces
     ewa_reference_layer *layers;       ///< [surface] of one pixel
     ewa_adjoint_pixel *pixels;         ///< [of a tile]
     uint8_t *done;                     ///< [block]: lanes that are ended
