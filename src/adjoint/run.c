@@ -111,6 +111,9 @@ static uint32_t find_discs(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, u
     ewa_disc_points discs;
     ewa_disc_splats splats;
     uint32_t points[EWA_DISC_LANES], listed = 0;
+    const ewa_attribute *color_stream = job->frame.reader.color;
+    const bool of_any_size = color_stream && ewa_color_full_scale(color_stream->type) == 0; // others are at most 1
+    if (!of_any_size) s->largest_color = 1;
     for (uint32_t lane = 0; lane < count; lane++) points[lane] = first + lane;
     ewa_adjoint_discs_read(&job->frame.reader, points, count, &discs);
     job->disc_kernels->project(&job->disc_view, &discs, &splats);
@@ -125,10 +128,11 @@ static uint32_t find_discs(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, u
             if (!find_reach_exactly(&job->frame.view, &surfel, &found)) continue;
         }
         if (splats.drawn[lane] == 0 || !list_splat(job, s, points[lane], &found, next + listed, items)) continue;
+        listed++;
+        if (!of_any_size) continue;
         double color[3], opacity;
         ewa_adjoint_read_color(&job->frame.reader, points[lane], color, &opacity);
         measure_color(s, color);
-        listed++;
     }
     return listed;
 }
@@ -355,6 +359,7 @@ static ewa_status reserve(ewa_adjoint_job *job) {
         s->splat_capacity = splats;
         s->plane_capacity = surfaces * ewa_adjoint_block_count(job) * EWA_PLANES * EWA_EIGHT_LANES;
         s->near_first = ewa_allocate(context, splats, sizeof *s->near_first);
+        s->near_room = ewa_allocate(context, splats, sizeof *s->near_room);
         s->splats = ewa_allocate(context, splats, sizeof *s->splats);
         s->order = ewa_allocate(context, splats, sizeof *s->order);
         s->planes = ewa_allocate(context, s->plane_capacity, sizeof *s->planes);
@@ -365,7 +370,8 @@ static ewa_status reserve(ewa_adjoint_job *job) {
         s->layers = ewa_allocate(context, surfaces, sizeof *s->layers);
         s->pixels = ewa_allocate(context, pixels, sizeof *s->pixels);
         s->done = ewa_allocate(context, ewa_adjoint_block_count(job), sizeof *s->done);
-        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->visits || !s->samples.items || !s->layers || !s->pixels || !s->done)
+        if (!s->near_first || !s->near_room || !s->splats || !s->order || !s->planes || !s->reached || !s->visits || !s->samples.items ||
+            !s->layers || !s->pixels || !s->done)
             return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
@@ -377,6 +383,7 @@ static void release(ewa_adjoint_job *job) {
     for (uint32_t i = 0; job->scratch && i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];
         ewa_release(context, s->near_first, s->splat_capacity, sizeof *s->near_first);
+        ewa_release(context, s->near_room, s->splat_capacity, sizeof *s->near_room);
         ewa_release(context, s->splats, s->splat_capacity, sizeof *s->splats);
         ewa_release(context, s->order, s->splat_capacity, sizeof *s->order);
         ewa_release(context, s->planes, s->plane_capacity, sizeof *s->planes);

@@ -87,9 +87,25 @@ static ewa_adjoint_pixel *pixel_at(const tile_work *w, uint32_t x, uint32_t y) {
 
 // ---- Splats in order
 
-static int compare_places(const void *a, const void *b) {
-    const uint64_t left = *(const uint64_t *)a, right = *(const uint64_t *)b;
-    return (left > right) - (left < right);
+/// Sorts places by their upper halves, digit by digit from the last; those that are equal stay as they are. `room` is for as many.
+static void sort_places(uint64_t *places, uint64_t *room, uint32_t count) {
+    enum { DIGIT_BITS = 8, DIGITS = 1 << DIGIT_BITS };
+    uint64_t any = 0, *from = places, *to = room;
+    for (uint32_t i = 1; i < count; i++) any |= places[i] ^ places[0];
+    for (int shift = 32; shift < 64; shift += DIGIT_BITS) {
+        uint32_t starts[DIGITS] = {0}, start = 0;
+        if (!(any >> shift & (DIGITS - 1))) continue;
+        for (uint32_t i = 0; i < count; i++) starts[from[i] >> shift & (DIGITS - 1)]++;
+        for (int d = 0; d < DIGITS; d++) {
+            const uint32_t here = starts[d];
+            starts[d] = start;
+            start += here;
+        }
+        for (uint32_t i = 0; i < count; i++) to[starts[from[i] >> shift & (DIGITS - 1)]++] = from[i];
+        uint64_t *const sorted = to;
+        to = from, from = sorted;
+    }
+    if (from != places) memcpy(places, from, count * sizeof *places);
 }
 
 /// A number of which the upper half has the order of depths.
@@ -381,7 +397,7 @@ void ewa_adjoint_tile(void *data, uint32_t index, uint32_t worker) {
         const uint32_t point = job->lists.ids[first + k];
         s->near_first[k] = place_of(job->begins[point], point);
     }
-    if (w.count) qsort(s->near_first, w.count, sizeof *s->near_first, compare_places);
+    sort_places(s->near_first, s->near_room, w.count);
     s->splat_count = s->samples.count = 0;
     for (uint32_t i = 0; i < w.place.width_px * w.place.height_px; i++) s->pixels[i].through = 1;
     for (bool open = true; open && ewa_goes_on(job->frame.context, worker); w.surface_count++) {

@@ -37,6 +37,7 @@ typedef struct ewa_adjoint_pixel {
 /// What one worker needs.
 typedef struct ewa_adjoint_scratch {
     uint64_t *near_first;              ///< [of a tile]: its points, by where they begin
+    uint64_t *near_room;               ///< as many
     ewa_reference_splat *splats;       ///< [of a tile], of the nearest points, as many as were asked for
     const ewa_reference_splat **order; ///< those by where they begin, the same whatever the points' order
     uint32_t splat_capacity, splat_count;
