@@ -6,27 +6,25 @@
 #include "adjoint/disc_back_body.h"
 
 /// `flat` is a constant, or choices by it would keep compilers from making vectors.
-LANE void project_lanes(const ewa_disc_view *from, const ewa_disc_points *points, bool flat, ewa_disc_splats *splats) {
+LANE void project_lanes(const ewa_disc_view *from, const ewa_disc_points *points, bool flat, ewa_disc_splats *to) {
     ewa_disc_view view = *from; // to which nothing else points
     view.flat = flat;
     const ewa_disc_points at = *points;
-    ewa_disc_splats to;
     for (int i = 0; i < EWA_DISC_LANES; i++) {
         const disc_splat s = project_disc(&view, load_disc(&view, &at, i));
-        to.drawn[i] = s.near ? -1 : s.drawn ? 1 : 0;
-        to.is_back[i] = s.is_back ? 1 : 0, to.concave[i] = s.concave ? 1 : 0;
-        to.box[0][i] = s.x_begin, to.box[1][i] = s.x_end, to.box[2][i] = s.y_begin, to.box[3][i] = s.y_end;
-        to.center_px[0][i] = s.center_x, to.center_px[1][i] = s.center_y;
-        to.moved_px[0][i] = s.moved_x, to.moved_px[1][i] = s.moved_y;
-        to.variance_px2[0][i] = s.v11, to.variance_px2[1][i] = s.v12, to.variance_px2[2][i] = s.v22;
-        to.inverse[0][i] = s.q11, to.inverse[1][i] = s.q12, to.inverse[2][i] = s.q22;
-        to.peak[i] = s.peak;
-        to.plane[0][i] = s.plane.x, to.plane[1][i] = s.plane.y, to.plane[2][i] = s.plane.z;
-        to.half_range[i] = s.half_range, to.key_low[i] = s.key_low, to.key_high[i] = s.key_high, to.epsilon[i] = s.epsilon;
-        store_lane(to.center, i, s.center), store_lane(to.axis_u, i, s.u), store_lane(to.axis_v, i, s.v);
-        store_lane(to.normal, i, s.normal), store_lane(to.normal_world, i, s.normal_world);
+        to->drawn[i] = s.near ? -1 : s.drawn ? 1 : 0;
+        to->is_back[i] = s.is_back ? 1 : 0, to->concave[i] = s.concave ? 1 : 0;
+        to->box[0][i] = s.x_begin, to->box[1][i] = s.x_end, to->box[2][i] = s.y_begin, to->box[3][i] = s.y_end;
+        to->center_px[0][i] = s.center_x, to->center_px[1][i] = s.center_y;
+        to->moved_px[0][i] = s.moved_x, to->moved_px[1][i] = s.moved_y;
+        to->variance_px2[0][i] = s.v11, to->variance_px2[1][i] = s.v12, to->variance_px2[2][i] = s.v22;
+        to->inverse[0][i] = s.q11, to->inverse[1][i] = s.q12, to->inverse[2][i] = s.q22;
+        to->peak[i] = s.peak;
+        to->plane[0][i] = s.plane.x, to->plane[1][i] = s.plane.y, to->plane[2][i] = s.plane.z;
+        to->half_range[i] = s.half_range, to->key_low[i] = s.key_low, to->key_high[i] = s.key_high, to->epsilon[i] = s.epsilon;
+        store_lane(to->center, i, s.center), store_lane(to->axis_u, i, s.u), store_lane(to->axis_v, i, s.v);
+        store_lane(to->normal, i, s.normal), store_lane(to->normal_world, i, s.normal_world);
     }
-    *splats = to;
 }
 
 static void project(const ewa_disc_view *view, const ewa_disc_points *points, ewa_disc_splats *splats) {

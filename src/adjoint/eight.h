@@ -25,6 +25,8 @@ enum { LANES = 8, PARTS = LANES / PART_LANES };
 
 typedef double d_part __attribute__((vector_size(PART_LANES * sizeof(double))));
 typedef int64_t m_part __attribute__((vector_size(PART_LANES * sizeof(int64_t))));
+/// One anywhere in memory. Copies by memcpy() go by sixteen bytes, for which wider reads of them have to wait.
+typedef double stored_part __attribute__((vector_size(PART_LANES * sizeof(double)), aligned(sizeof(double))));
 
 typedef struct d8 {
     d_part part[PARTS];
@@ -42,12 +44,10 @@ typedef struct m8 {
     return result
 
 EIGHT d8 d8_set(double a) { EACH(d8, a - (d_part){0}); }
-EIGHT d8 d8_load(const double *from) {
-    d8 result;
-    memcpy(&result, from, sizeof result);
-    return result;
+EIGHT d8 d8_load(const double *from) { EACH(d8, *(const stored_part *)(from + i * PART_LANES)); }
+EIGHT void d8_store(double *to, d8 a) {
+    for (int i = 0; i < PARTS; i++) *(stored_part *)(to + i * PART_LANES) = a.part[i];
 }
-EIGHT void d8_store(double *to, d8 a) { memcpy(to, &a, sizeof a); }
 EIGHT d8 d8_add(d8 a, d8 b) { EACH(d8, a.part[i] + b.part[i]); }
 EIGHT d8 d8_sub(d8 a, d8 b) { EACH(d8, a.part[i] - b.part[i]); }
 EIGHT d8 d8_mul(d8 a, d8 b) { EACH(d8, a.part[i] * b.part[i]); }

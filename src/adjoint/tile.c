@@ -365,7 +365,16 @@ static bool counts_anywhere(const tile_work *w, uint32_t splat) {
     return counts;
 }
 
+/// The sums of splats that come later are fetched by then.
+static void fetch_sums(const tile_work *w, uint32_t splat) {
+    enum { LINE_NUMBERS = 8 };
+    const uint32_t point = (uint32_t)w->scratch->near_first[splat];
+    const int64_t *sums = w->job->sums + (size_t)point * w->job->width;
+    for (uint32_t m = 0; m < w->job->width; m += LINE_NUMBERS) __builtin_prefetch(sums + m, 1);
+}
+
 static void gather_splats(const tile_work *w) {
+    enum { AHEAD = 8 };
     const ewa_adjoint_job *job = w->job;
     const ewa_adjoint_scratch *s = w->scratch;
     uint32_t most = 0;
@@ -373,6 +382,7 @@ static void gather_splats(const tile_work *w) {
     for (uint32_t k = 0; k < most; k++) {
         double scales[EWA_MOMENT_COUNT];
         int64_t sums[EWA_MOMENT_COUNT] = {0};
+        if (k + AHEAD < most && counts_anywhere(w, k + AHEAD)) fetch_sums(w, k + AHEAD);
         if (!counts_anywhere(w, k)) continue;
         ewa_adjoint_scales(job, s->order[k], scales);
         for (uint32_t i = 0; i < w->surface_count; i++) {

@@ -82,6 +82,9 @@ static const uint32_t KINDS[] = {
     ADJOINT_MERGED | ADJOINT_TRANSPARENT | ADJOINT_ELLIPSES,
     ADJOINT_CURVED | ADJOINT_EDGES,
     ADJOINT_CURVED | ADJOINT_ELLIPSES | ADJOINT_ORTHOGRAPHIC,
+    ADJOINT_AFFINE | ADJOINT_HARD,
+    ADJOINT_TRANSPARENT | ADJOINT_CURVED,
+    ADJOINT_NEAR | ADJOINT_ORTHOGRAPHIC | ADJOINT_LIGHTS,
 };
 
 /// The largest number of a stream, and how far another is from it.
@@ -177,6 +180,49 @@ TEST(test_same_bytes) {
         }
         drop(&first);
     }
+}
+
+/// Streams of floats and of doubles of the same numbers are the same points.
+TEST(test_types) {
+    (void)state;
+    enum { COUNT = 2000 };
+    static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS};
+    ewa_context *context = check_context(2, NULL);
+    ewa_generate_options generate;
+    ewa_generate_options_init(&generate, sizeof generate);
+    generate.object = EWA_OBJECT_TORUS, generate.point_count = COUNT;
+    ewa_cloud *clouds[2];
+    for (int i = 0; i < 2; i++) assert_int_equal(ewa_cloud_generate(context, &generate, &clouds[i]), EWA_OK);
+    for (int i = 0; i < 3; i++) {
+        const ewa_attribute *from = ewa_cloud_find(clouds[0], names[i]);
+        assert_int_equal(from->type, EWA_F32);
+        void *to;
+        assert_int_equal(ewa_cloud_add(clouds[1], names[i], EWA_F64, from->component_count, &to), EWA_OK);
+        ewa_attribute_read_f64(ewa_cloud_find(clouds[0], names[i]), 0, COUNT, to);
+    }
+    adjoint_scene *s = adjoint_scene_make(context, ADJOINT_PLAIN, COUNT, 70, 5, 3);
+    const double eye[3] = {0.5, -4, 2}, middle[3] = {0, 0, 0}, up[3] = {0, 0, 1};
+    assert_int_equal(ewa_camera_look_at(&s->camera, eye, middle, up), EWA_OK);
+    backward of[2];
+    for (int i = 0; i < 2; i++) {
+        of[i] = make(s);
+        leave_colors(&of[i]);
+        assert_int_equal(run(&of[i], clouds[i]), EWA_OK);
+    }
+    double largest = 0;
+    for (int i = 0; i < 3 * COUNT; i++) largest = fmax(largest, fabs(of[0].position[i]));
+    assert_true(largest > 0);
+    assert_memory_equal(of[0].color, of[1].color, 3 * COUNT * sizeof(double));
+    assert_memory_equal(of[0].position, of[1].position, 3 * COUNT * sizeof(double));
+    assert_memory_equal(of[0].normals, of[1].normals, 3 * COUNT * sizeof(double));
+    assert_memory_equal(of[0].radius, of[1].radius, COUNT * sizeof(double));
+    assert_memory_equal(&of[0].camera, &of[1].camera, sizeof of[0].camera);
+    for (int i = 0; i < 2; i++) {
+        drop(&of[i]);
+        ewa_cloud_destroy(&clouds[i]);
+    }
+    adjoint_scene_free(&s);
+    ewa_context_destroy(&context);
 }
 
 /// Colours with the picture are those that come with all others, and the picture is that of the pipeline: within what floats and
