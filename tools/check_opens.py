@@ -23,7 +23,8 @@ SYSTEM = {"src/base/platform_posix.c", "src/base/platform_unix.c", "src/base/pla
           "src/base/pool.c"}
 #: Files whose paths are those that a caller gave, or of temporary files that the library has made.
 CALLER = {"src/io/camera/file.c", "src/io/cloud/cloud_file.c", "src/io/cloud/stream.c", "src/io/file.c",
-          "src/io/gaussian/gaussian_file.c", "src/io/image/image_file.c", "src/io/las/copc_nodes.c", "src/io/mesh/materials.c",
+          "src/io/gaussian/gaussian_file.c", "src/io/gaussian/levels_file.c", "src/io/image/image_file.c", "src/io/las/copc_nodes.c",
+          "src/io/mesh/materials.c",
           "src/io/mesh/model_file.c", "src/io/polygon_text.c", "src/io/volume/file.c", "src/io/volume/transfer_file.c",
           "src/lod/part.c", "src/scene/file.c"}
 

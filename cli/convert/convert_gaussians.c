@@ -105,12 +105,23 @@ static bool choose_gaussians(cli_session *session, double factor, convert_choose
     return done;
 }
 
+/// Writes a file as it is; false after reporting.
+static bool convert_whole(cli_session *session, const char *from, const char *to, const ewa_gaussians_save_options *options) {
+    uint64_t count;
+    session->subject = from;
+    if (!session_passed(session, ewa_gaussians_convert(session->context, from, to, options, &count))) return false;
+    session_say(session, "%s: %llu Gaussians written (%s)", to, (unsigned long long)count, ewa_gaussian_format_name(ewa_gaussians_format_of(to)));
+    return true;
+}
+
 bool convert_gaussians(cli_session *session, const char *from, const char *to,
                        const ewa_gaussians_save_options *options, double prune_factor, convert_chooser *choose, const void *data,
                        const double (*matrices)[16], uint32_t count) {
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     ewa_gaussians_save_options chosen = *options;
+    const bool changed = choose || prune_factor > 0 || count || ewa_scene_file_probe(from);
+    if (!changed && ewa_gaussians_format_of(to) == EWA_GAUSSIANS_STREAMED_SOG) return convert_whole(session, from, to, options);
     if (ewa_scene_file_probe(from)) {
         if (!scene_input_gaussians(session, from, &set, chosen.up_world)) return false;
     } else {

@@ -85,6 +85,12 @@ EWA_API void ewa_gaussians_save_options_init(ewa_gaussians_save_options *options
 EWA_API ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
                                       const ewa_gaussians_save_options *options);
 
+/// Writes what a file holds to another, as ewa_gaussians_load() and ewa_gaussians_save() do one after the other, to the byte; `*count` gets how many
+/// Gaussians that are. Of lod-meta.json from a binary PLY whose centres are floats a part is in memory at a time, some 16 MiB of Gaussians and a file of each
+/// level, and a temporary file beside it holds them all. What is up is what the file says, whatever `options`, which may be NULL, say. Errors: theirs.
+EWA_API ewa_status ewa_gaussians_convert(ewa_context *context, const char *from, const char *to, const ewa_gaussians_save_options *options,
+                                         uint64_t *count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2982,6 +2982,7 @@ class Functions:
         self.ewa_gaussians_to_cloud: Callable[..., int] = bind("ewa_gaussians_to_cloud", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
         self.ewa_gaussians_transform: Callable[..., int] = bind("ewa_gaussians_transform", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
         self.ewa_gaussian_format_name: Callable[..., bytes | None] = bind("ewa_gaussian_format_name", c.c_char_p, c.c_int)
+        self.ewa_gaussians_convert: Callable[..., int] = bind("ewa_gaussians_convert", c.c_int, c.c_void_p, c.c_char_p, c.c_char_p, c.POINTER(ewa_gaussians_save_options), c.c_void_p)
         self.ewa_gaussians_format_of: Callable[..., int] = bind("ewa_gaussians_format_of", c.c_int, c.c_char_p)
         self.ewa_gaussians_load: Callable[..., int] = bind("ewa_gaussians_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
         self.ewa_gaussians_load_memory: Callable[..., int] = bind("ewa_gaussians_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))

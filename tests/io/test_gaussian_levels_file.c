@@ -28,11 +28,12 @@ static void make_set(ewa_context *context, uint32_t count, uint32_t sh_degree, e
     }
 }
 
-static const char *level_path(const char *folder, uint32_t level, char path[512]) {
+static const char *file_path(const char *folder, uint32_t level, uint32_t number, char path[512]) {
     char name[64];
-    snprintf(name, sizeof name, "%s/%u_0.sog", folder, level);
+    snprintf(name, sizeof name, "%s/%u_%u.sog", folder, level, number);
     return scratch_path(name, path);
 }
+static const char *level_path(const char *folder, uint32_t level, char path[512]) { return file_path(folder, level, 0, path); }
 
 static const char *make_folder(const char *folder, char path[512]) {
     char name[64];
@@ -43,10 +44,34 @@ static const char *make_folder(const char *folder, char path[512]) {
 
 static void remove_folder(const char *folder) {
     char path[512], name[64];
-    for (uint32_t level = 0; level < LEVELS; level++) remove(level_path(folder, level, path));
+    for (uint32_t level = 0; level < LEVELS; level++)
+        for (uint32_t number = 0; number < 2; number++) remove(file_path(folder, level, number, path));
     snprintf(name, sizeof name, "%s/lod-meta.json", folder);
     remove(scratch_path(name, path));
     rmdir(scratch_path(folder, path));
+}
+
+static void check_same_file(const char *one, const char *other) {
+    size_t sizes[2];
+    uint8_t *bytes[] = {scratch_read(one, &sizes[0]), scratch_read(other, &sizes[1])};
+    assert_int_equal(sizes[0], sizes[1]);
+    assert_memory_equal(bytes[0], bytes[1], sizes[0]);
+    free(bytes[0]), free(bytes[1]);
+}
+
+/// Checks that two folders have the same files; returns how many of levels.
+static uint32_t check_same_folders(const char *one, const char *other) {
+    char paths[2][512];
+    uint32_t count = 0;
+    check_same_file(make_folder(one, paths[0]), make_folder(other, paths[1]));
+    for (uint32_t level = 0; level < LEVELS; level++)
+        for (uint32_t number = 0; number < 2; number++) {
+            const bool there = access(file_path(one, level, number, paths[0]), F_OK) == 0;
+            assert_true(there == (access(file_path(other, level, number, paths[1]), F_OK) == 0));
+            if (there) check_same_file(paths[0], paths[1]);
+            count += there;
+        }
+    return count;
 }
 
 static double world(const ewa_gaussians *set, size_t i, size_t k) { return set->origin[k] + (double)set->centers[3 * i + k]; }
@@ -133,17 +158,44 @@ TEST(same_files) {
         ewa_gaussians_free(&set);
         ewa_context_destroy(&context);
     }
-    for (uint32_t level = 0; level <= LEVELS; level++) {
-        size_t size[2];
-        uint8_t *bytes[2];
-        for (int n = 0; n < 2; n++)
-            bytes[n] = scratch_read(level < LEVELS ? level_path(names[n], level, path) : make_folder(names[n], path), &size[n]);
-        assert_int_equal(size[0], size[1]);
-        assert_memory_equal(bytes[0], bytes[1], size[0]);
-        free(bytes[0]), free(bytes[1]);
-    }
+    assert_int_equal(check_same_folders(names[0], names[1]), LEVELS);
     remove_folder("one");
     remove_folder("three");
+}
+
+/// Levels of a file of which a part is in memory are those of the set: of several bins, one of which is divided again and again, of what is up
+/// along z, of classes, which have no room; and of files that are read whole.
+TEST(of_files) {
+    enum { MANY = 320000 }; // more than a bin of 16 MiB, and two files of the finest level
+    static const char *const names[] = {"whole", "parts"};
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(2, &log);
+    for (int n = 0; n < 3; n++) {
+        const uint32_t many = n == 0 ? MANY : COUNT;
+        ewa_gaussians set;
+        ewa_gaussian_facts facts;
+        char path[512], file[512];
+        uint64_t count = 0;
+        make_set(context, many, n == 1 ? 1 : 0, &set);
+        for (uint32_t i = 0; i < many && n == 0; i++) // nearly all within a part in 10,000 of the box, a few far away
+            for (size_t k = 0; k < 3; k++) set.centers[3 * (size_t)i + k] *= i % 1000 ? 1e-4f : 1;
+        if (n == 1) assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
+        WITH_DEFAULTS(ewa_gaussians_save_options, options);
+        assert_int_equal(ewa_gaussians_save(&set, scratch_path(n == 2 ? "set.splat" : "set.ply", file), NULL), EWA_OK);
+        ewa_gaussians_free(&set);
+        log.count = 0;
+        assert_int_equal(ewa_gaussians_convert(context, file, make_folder(names[1], path), NULL, &count), EWA_OK);
+        assert_int_equal(count, many);
+        assert_int_equal(log.count, n == 1);
+        assert_int_equal(ewa_gaussians_load(context, file, &set, &facts), EWA_OK);
+        assert_int_equal(ewa_gaussians_save(&set, make_folder(names[0], path), &options), EWA_OK);
+        ewa_gaussians_free(&set);
+        assert_int_equal(check_same_folders(names[0], names[1]), n ? LEVELS : LEVELS + 1);
+        remove_folder(names[0]);
+        remove_folder(names[1]);
+        assert_int_equal(unlink(file), 0);
+    }
+    ewa_context_destroy(&context);
 }
 
 TEST(refused) {

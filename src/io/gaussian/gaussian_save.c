@@ -81,15 +81,22 @@ static ewa_status check_set(const ewa_gaussians *set) {
     return EWA_OK;
 }
 
-/// Makes a copy of a set that is turned about x so that -y is up, as in 3DGS. Errors: EWA_ERROR_ARGUMENT (up is along
-/// x), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_NUMERIC.
-static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ewa_gaussians *turned) {
+/// Whether what is up needs a turn to be -y, as in 3DGS.
+static bool is_turned(const double up[3]) { return !(up[1] <= 0 && up[0] == 0 && up[2] == 0); }
+
+ewa_status ewa_gaussians_turn_up(ewa_gaussians *set, const double up_world[3]) {
     const double length = hypot(up_world[1], up_world[2]), y = up_world[1] / length, z = up_world[2] / length;
-    *turned = (ewa_gaussians){0};
+    if (!is_turned(up_world)) return EWA_OK;
     if (!(length > 0))
         return ewa_fail(set->context, EWA_ERROR_ARGUMENT, "up_world: %g, %g, %g is along x", up_world[0],
                         up_world[1], up_world[2]);
     const double matrix[16] = {1, 0, 0, 0, 0, -y, -z, 0, 0, z, -y, 0, 0, 0, 0, 1};
+    return ewa_gaussians_transform(set, matrix);
+}
+
+/// Makes a copy of a set that is turned so. Errors: those of ewa_gaussians_turn_up(), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ewa_gaussians *turned) {
+    *turned = (ewa_gaussians){0};
     EWA_TRY(ewa_gaussians_create(set->context, set->count, set->sh_degree, turned));
     turned->flat = set->flat, turned->antialiased = set->antialiased;
     memcpy(turned->origin, set->origin, sizeof turned->origin);
@@ -101,7 +108,7 @@ static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ew
            3 * (size_t)ewa_sh_count(set->sh_degree) * set->count * sizeof(float));
     ewa_status status = set->classes ? ewa_gaussians_add_classes(turned) : EWA_OK;
     if (status == EWA_OK && set->classes) memcpy(turned->classes, set->classes, set->count * sizeof *set->classes);
-    if (status == EWA_OK) status = ewa_gaussians_transform(turned, matrix);
+    if (status == EWA_OK) status = ewa_gaussians_turn_up(turned, up_world);
     if (status != EWA_OK) ewa_gaussians_free(turned);
     return status;
 }
@@ -140,7 +147,7 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
                         path, gaussians->sh_degree);
     EWA_TRY(check_set(gaussians));
     const double *up = chosen.up_world;
-    if (up[1] <= 0 && up[0] == 0 && up[2] == 0) return write_set(gaussians, path, format, &chosen);
+    if (!is_turned(up)) return write_set(gaussians, path, format, &chosen);
     ewa_gaussians turned;
     ewa_status status = turn_up(gaussians, up, &turned);
     if (status == EWA_OK) status = write_set(&turned, path, format, &chosen);

@@ -23,4 +23,9 @@ ewa_status ewa_levels_writer_finish(ewa_levels_writer *writer);
 /// Closes a writer, whose files are gone unless it was finished; sets `*writer` to NULL; accepts a pointer to NULL.
 void ewa_levels_writer_close(ewa_levels_writer **writer);
 
+/// Writes the levels of a file, a binary PLY of Gaussians with centres in floats, of which a part is in memory at a time (levels_file.c); `*count` gets how
+/// many there are, 0 where it is another file, of which nothing is written. Errors: as ewa_gaussians_load() and ewa_gaussians_save().
+ewa_status ewa_gaussians_write_file_levels(ewa_context *context, const char *from, const char *to, const ewa_gaussians_save_options *options,
+                                           uint64_t *count);
+
 #endif

@@ -21,6 +21,9 @@ typedef ewa_status ewa_gaussian_write(const ewa_gaussian_target *target);
 ewa_gaussian_write ewa_gaussians_write_ply, ewa_gaussians_write_packed_ply, ewa_gaussians_write_splat,
     ewa_gaussians_write_spz, ewa_gaussians_write_gltf, ewa_gaussians_write_sog, ewa_gaussians_write_streamed_sog;
 
+/// Turns a set about x so that what is up is -y, as in 3DGS. Errors: EWA_ERROR_ARGUMENT (up is along x), EWA_ERROR_NUMERIC.
+ewa_status ewa_gaussians_turn_up(ewa_gaussians *set, const double up_world[3]);
+
 /// Writes a number with its lowest byte first and returns what follows.
 static inline uint8_t *ewa_put_u32(uint8_t *to, uint32_t value) {
     for (int k = 0; k < 4; k++) to[k] = (uint8_t)(value >> 8 * k);
