@@ -119,18 +119,18 @@ static void print_scene(far_run *run, ewa_cloud *cloud) {
         far_average(run->fine, run->side_px, FAR_FINER, run->truth);
         save(run, "truth", distances[i], run->truth);
         draw(run, distances[i], 1, 0, 1, run->other);
-        print(run, distances[i], "all points", run->other);
+        print(run, distances[i], "all points, supersampling 1", run->other);
         draw(run, distances[i], 1, 0, 0, run->other);
-        print(run, distances[i], "all points, supersampling 0", run->other);
+        print(run, distances[i], "all points", run->other);
         const uint32_t level = level_at(run, distances[i]);
         char what[32];
         snprintf(what, sizeof what, "level %u", level);
         draw(run, distances[i], 1, level, 1, run->other);
         if (level) print(run, distances[i], what, run->other);
         draw_octree(run, distances[i], 1, run->other);
+        print(run, distances[i], "octree, supersampling 1", run->other);
+        draw_octree(run, distances[i], 0, run->other);
         print(run, distances[i], "octree", run->other);
-        draw_octree(run, distances[i], 4, run->other);
-        print(run, distances[i], "octree, supersampling 4", run->other);
     }
     ewa_surfels_destroy(&run->surfels);
     ewa_lod_close(&run->lod);

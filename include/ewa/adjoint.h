@@ -42,7 +42,7 @@ typedef struct ewa_gradient {
     double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, as ewa_frame.rgba in double precision
 } ewa_gradient;
 
-/// Takes the cotangents of a picture as ewa_render() draws it to those of what made it: the same
+/// Takes the cotangents of a picture as ewa_render() draws it with a supersampling of 1 to those of what made it: the same
 /// bytes for every number of threads, every instruction set and every order of the points. Colours alone go back through
 /// the pipeline itself, in single precision: they are the derivative of the picture that it draws of the surfels that it
 /// makes, within 1e-5 of the largest. With anything else, `rgba` too, and where
@@ -54,7 +54,7 @@ typedef struct ewa_gradient {
 /// taken as they are, not as surfels round them. A warning says when the camera sees no surfel. Kernels: perspective,
 /// affine. Errors: EWA_ERROR_ARGUMENT (camera, options, cotangents that are not finite: plane and pixel; NULL),
 /// EWA_ERROR_UNSUPPORTED (options without a derivative here, named: other kernels, one pass, points of a size,
-/// highlights, eye-dome lighting, levels of detail), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// highlights, eye-dome lighting, levels of detail, more parts of pixels), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_render_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                        double unit_coverage, const ewa_camera *camera,
                                        const ewa_render_options *options, const ewa_frame_cotangent *cotangent,

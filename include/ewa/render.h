@@ -142,10 +142,10 @@ typedef struct ewa_render_options {
     /// renderer expects to draw in that time, by what its frames before took; [0, 1e15]; default 0: `level`.
     /// Only which level is drawn depends on time.
     double budget_s;
-    /// Every pixel is drawn as so many by so many, and their average (docs/math.md section 7): for what is far, where
-    /// a pixel holds many surfels of many small surfaces. `prefilter_px` is in pixels of those. [0, EWA_MAX_SUPERSAMPLING];
-    /// 1 (default): as it is; 0: 1, 2, 4 or 8, as the frame's surfels need it to be about as large as a pixel. Depths
-    /// are the nearest of a pixel's, normals and coverages means. With eye-dome lighting: 1.
+    /// Every pixel is drawn as so many by so many, and their average (docs/math.md section 7), with `prefilter_px` in pixels of those. [0,
+    /// EWA_MAX_SUPERSAMPLING]; 0 (default): 1 where the frame's surfels are as large as pixels, for what is far 2, 4 or 8, which makes parts as
+    /// small as they are and changes continuously with the camera; also 1: gradients, references, octrees with a budget, panoramas, eye-dome
+    /// lighting. Depths are the nearest of a pixel's, normals and coverages means. With eye-dome lighting: at most 1.
     uint32_t supersampling;
 } ewa_render_options;
 

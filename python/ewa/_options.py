@@ -464,7 +464,7 @@ class RenderOptions(TypedDict, total=False):
     level: int | None
     #: time for a frame: of the levels of detail from `level` on, the finest that is expected to be drawn in that time; 0: `level`; [0, 1e15], s, default 0
     budget_s: float | None
-    #: draws every pixel as so many by so many parts, and their average: for what is far, where a pixel holds many small things; 0: 1, 2, 4 or 8, as the surfels need to be about as large as a part; [0, 8], default 1
+    #: draws every pixel as so many by so many parts, and their average; 0: as it is where surfels are as large as pixels, and 2, 4 or 8 for what is far, where a pixel holds many small things; [0, 8], default 0
     supersampling: int | None
 
 

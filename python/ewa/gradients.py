@@ -89,7 +89,7 @@ def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any 
                     **options: Unpack[BackwardOptions]) -> Gradients:
     """Take what a loss changes per number of a picture to what it changes per number of what made it.
 
-    The picture is that of ``render(cloud.surfels(close_gaps=False), camera)`` with the same options. What jumps has no
+    The picture is that of ``render(cloud.surfels(close_gaps=False), camera, supersampling=1)`` with the same options. What jumps has no
     derivative: which surfels are seen where. The same bytes for any number of threads and order of the points.
 
     Parameters

@@ -126,6 +126,7 @@ class _Render(torch.autograd.Function):  # type: ignore[misc,unused-ignore]
         surfels = cloud.surfels(close_gaps=False, **{name: value for name, value in frame.options.items()
                                                      if name in SURFELS_OPTIONS})
         drawn = {name: value for name, value in frame.options.items() if name not in SURFELS_OPTIONS}
+        drawn["supersampling"] = drawn.get("supersampling") or 1  # as derivatives have it
         image = render_image(surfels, camera, planes=frame.planes, **drawn)
         ctx.unit_coverage = surfels._info.unit_coverage
         made = tuple(torch.from_numpy(getattr(image, name)) for name in frame.planes)

@@ -111,6 +111,11 @@ static ewa_status reserve(ewa_joint *joint) {
     return reserve_tile_caches(joint);
 }
 
+static ewa_status add(void *state, int64_t *numbers, uint32_t count) {
+    ewa_joint *joint = state;
+    return ewa_exchange_add(joint->context, &joint->exchange, numbers, count);
+}
+
 /// Adds up a number of all ranks.
 static ewa_status add_up(ewa_joint *joint, uint64_t mine, uint64_t *sum) {
     int64_t value = (int64_t)mine;
@@ -200,7 +205,7 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
 }
 
 static const ewa_backend joint_backend = {
-    .name = "joint", .create = create, .destroy = destroy, .draw = draw, .joint = true};
+    .name = "joint", .create = create, .destroy = destroy, .draw = draw, .add = add};
 
 ewa_status ewa_renderer_create_joint(ewa_context *context, const ewa_exchange *exchange,
                                      ewa_renderer **renderer) {

@@ -13,6 +13,7 @@
 // weight and by the part of its box that is in the picture.
 #include "lod/cut.h"
 #include "base/base.h"
+#include "ewa/prepare.h"
 #include "homogeneous/vec.h"
 #include "surface/levels.h"
 
@@ -29,6 +30,9 @@ static const double ERROR_SPACING_PX = 0.5;
 /// Surfels for each pixel, or part of one, that octrees cover, where nobody says how many: half of those that are promised, since boxes cover up to
 /// twice what is in them, and what fades is drawn twice.
 static const double SURFELS_PER_PIXEL = 4;
+
+/// Surfels that a picture may take for parts of pixels, about: as many as one takes that octrees fill.
+static const double SURFELS_FOR_PARTS = 0x1p19;
 
 /// The most that the bounds grow by, and steps by which the factor is found, each of which halves its range.
 static const double MAX_COARSER = 4096;
@@ -87,7 +91,7 @@ static node_view view_node(const ewa_cut *c, const ewa_lod_node *node) {
 static uint32_t root_levels(const ewa_cut *c) {
     const ewa_lod_node *root = c->lod->nodes;
     uint32_t level = 0;
-    if (c->whole_roots || !root->divided) return 0;
+    if (!root->divided) return 0;
     while (level + 1 < EWA_MAX_LEVELS && root->count >> 2 * (level + 1) >= EWA_LEVEL_MIN_SURFELS) level++;
     return level;
 }
@@ -369,17 +373,53 @@ static ewa_status choose_coarseness(ewa_cut *c) {
     return EWA_OK;
 }
 
+static ewa_cut make_cut(const ewa_lod_scene *scene, const ewa_camera *camera, const ewa_lod_options *chosen) {
+    // Filters reach some pixels beyond a surfel.
+    return (ewa_cut){.scene = scene, .home = scene->lods[0], .camera = camera, .options = chosen, .coarser = 1, .margin_px = 16};
+}
+
+/// Adds the areas of what would be drawn of the finest parts. What has children is smaller than any part: its points are.
+static ewa_status add_areas(ewa_cut *c, ewa_part_areas *areas) {
+    enum { LARGEST_PX = 64 }; // the camera is in some
+    EWA_TRY(ewa_cut_choose(c, false));
+    for (uint32_t i = 0; i < c->item_count; i++) {
+        const ewa_cut_item *it = &c->items[i];
+        const double spacing_px = fmin(it->spacing_px, LARGEST_PX);
+        const double radius_px = it->lod->nodes[it->node].divided ? 0 : EWA_DEFAULT_RADIUS_SCALE * spacing_px;
+        ewa_part_areas_add(areas, radius_px, it->weight * (double)ewa_cut_item_count(it) * spacing_px * spacing_px);
+    }
+    uint64_t packet_count = 0;
+    for (uint32_t i = 0; i < c->scene->surfels_count; i++) packet_count += c->scene->surfels[i]->packet_count;
+    for (uint32_t i = 0; i < c->scene->surfels_count; i++)
+        ewa_part_areas_add_surfels(areas, c->camera, c->scene->surfels[i], ewa_part_areas_step(packet_count));
+    return EWA_OK;
+}
+
+ewa_status ewa_cut_choose_parts(const ewa_lod_scene *scene, const ewa_camera *camera, const ewa_render_options *options,
+                                const ewa_lod_options *chosen, ewa_division *parts) {
+    *parts = (ewa_division){.count = options->supersampling ? options->supersampling : 1};
+    if (options->supersampling) return EWA_OK;
+    ewa_lod_options finest = *chosen;
+    ewa_cut_divide(&finest, EWA_MAX_SUPERSAMPLING);
+    ewa_cut c = make_cut(scene, camera, &finest);
+    double octaves = INFINITY;
+    if (chosen->error > 0) {
+        double pixels, limit = SURFELS_FOR_PARTS;
+        EWA_TRY(measure_cover(&c, &pixels));
+        if (chosen->max_splats) limit = fmin(limit, (double)chosen->max_splats);
+        if (pixels > 0) octaves = log2(limit / (SURFELS_PER_PIXEL * pixels)) / 2;
+        if (!(octaves > 0)) return EWA_OK;
+    }
+    ewa_part_areas areas = {.at = {0}};
+    EWA_TRY(add_areas(&c, &areas));
+    *parts = ewa_parts_for(fmin(octaves, ewa_part_areas_octaves(&areas)), camera);
+    return EWA_OK;
+}
+
 ewa_status ewa_cut_begin(ewa_cut *c, const ewa_lod_scene *scene, const ewa_camera *camera, const ewa_render_options *options,
                          const ewa_lod_options *chosen) {
-    const double side_parts = fmax(options->supersampling, 1);
-    // Filters reach some pixels beyond a surfel.
-    *c = (ewa_cut){.scene = scene,
-                   .home = scene->lods[0],
-                   .camera = camera,
-                   .options = chosen,
-                   .parts_per_pixel = side_parts * side_parts,
-                   .whole_roots = options->supersampling == 0,
-                   .margin_px = 16};
+    *c = make_cut(scene, camera, chosen);
+    c->parts_per_pixel = (double)options->supersampling * options->supersampling;
     ewa_cut_next_frame(scene);
     return choose_coarseness(c);
 }

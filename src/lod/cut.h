@@ -6,6 +6,7 @@
 #define EWA_SRC_LOD_CUT_H
 
 #include "lod/tree.h"
+#include "surface/parts.h"
 
 /// A node of the picture.
 typedef struct ewa_cut_item {
@@ -35,7 +36,6 @@ typedef struct ewa_cut {
     double margin_px;
     double parts_per_pixel; ///< that are drawn, and averaged
     double coarser;   ///< by which spacing and error may be larger than the options say
-    bool whole_roots; ///< roots are drawn by all of their surfels, which say into how many parts pixels are divided
     bool loaded_only; ///< nodes that are not in memory are drawn by what represents them
     ewa_cut_item *items;
     uint32_t item_count;
@@ -43,8 +43,17 @@ typedef struct ewa_cut {
     ewa_status status;
 } ewa_cut;
 
+/// Nodes as fine as so many parts along a pixel's side.
+static inline void ewa_cut_divide(ewa_lod_options *options, uint32_t count) { options->spacing_px /= count, options->error /= count; }
+
+/// Says into how many parts pixels are divided: where the options leave it open, as many as make them as small as what is drawn, but of octrees no
+/// more than take about as many surfels as a picture that these fill. The same for all ranks, bands, and what is in memory.
+/// Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_cut_choose_parts(const ewa_lod_scene *scene, const ewa_camera *camera, const ewa_render_options *options,
+                                const ewa_lod_options *chosen, ewa_division *parts);
+
 /// Begins a picture of octrees: what was wanted before may go, and what is known of the cut is filled in, also how much coarser the
-/// picture has to be, so that it takes no more surfels than it may. `chosen` for parts of pixels. Errors: EWA_ERROR_MEMORY.
+/// picture has to be, so that it takes no more surfels than it may. `options` and `chosen` for parts of pixels. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_cut_begin(ewa_cut *cut, const ewa_lod_scene *scene, const ewa_camera *camera,
                          const ewa_render_options *options, const ewa_lod_options *chosen);
 

@@ -4,7 +4,6 @@
 // A picture of an octree: what has to be read for it, and in which bands it is drawn.
 #include "base/base.h"
 #include "base/options.h"
-#include "ewa/prepare.h"
 #include "lod/cut.h"
 #include "lod/reading.h"
 #include "lod/tree.h"
@@ -230,25 +229,9 @@ static ewa_status keep_share(ewa_cut *c) {
                     (unsigned long long)options->memory_bytes);
 }
 
-/// Into how many parts the sides of pixels are divided where the nodes' surfels are to say: by the spacing that nodes
-/// promise, which all ranks and bands know.
-static uint32_t parts_for(const ewa_cut *c) {
-    enum { LARGEST_PX = 64 }; // the camera is in some
-    ewa_part_areas areas = {.all = 0};
-    for (uint32_t i = 0; i < c->item_count; i++) {
-        const ewa_cut_item *it = &c->items[i];
-        const double spacing_px = fmin(it->spacing_px, LARGEST_PX);
-        const double area = it->weight * (double)ewa_cut_item_count(it) * spacing_px * spacing_px;
-        ewa_part_areas_add(&areas, EWA_DEFAULT_RADIUS_SCALE * spacing_px, area);
-    }
-    return ewa_part_areas_choose(&areas, c->camera);
-}
-
 static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                         const ewa_render_options *asked, const ewa_lod_options *chosen,
+                         const ewa_render_options *options, const ewa_lod_options *chosen,
                          const ewa_frame *frame, ewa_lod_stats *stats) {
-    ewa_render_options own = *asked;
-    const ewa_render_options *options = &own;
     const double start_s = ewa_now_s();
     ewa_cut c;
     ewa_status status = ewa_cut_begin(&c, scene, camera, options, chosen);
@@ -260,7 +243,6 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     }
     const double before_s = ewa_now_s();
     if (status == EWA_OK) status = ewa_cut_choose(&c, chosen->load_s > 0 || chosen->resident_only);
-    if (status == EWA_OK && own.supersampling == 0) own.supersampling = parts_for(&c);
     if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
     EWA_TRY(status);
     stats->choose_s = ewa_now_s() - before_s + settled_s;
@@ -293,11 +275,44 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     return status;
 }
 
-/// Draws surfels alone; of several ranks the part of this one.
-static ewa_status render_surfels(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                                 const ewa_render_options *options, const ewa_frame *frame,
+/// Draws by nodes that are as fine as so many parts along a pixel's side; `stats` counts on.
+static ewa_status render_divided(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                 const ewa_render_options *options, const ewa_lod_options *chosen, uint32_t parts,
+                                 const ewa_frame *frame, ewa_lod_stats *stats) {
+    ewa_render_options own = *options;
+    ewa_lod_options divided = *chosen;
+    own.supersampling = parts;
+    ewa_cut_divide(&divided, parts);
+    ewa_lod_stats took = {.node_count = 0};
+    EWA_TRY(render(scene, renderer, camera, &own, &divided, frame, &took));
+    took.loaded_count += stats->loaded_count;
+    took.surfel_count += stats->surfel_count;
+    took.choose_s += stats->choose_s;
+    took.load_s += stats->load_s;
+    ewa_render_stats_add(&took.render, &stats->render);
+    *stats = took;
+    return EWA_OK;
+}
+
+static ewa_status render_by_parts(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                  const ewa_render_options *options, const ewa_lod_options *chosen, ewa_division parts,
+                                  const ewa_frame *frame, ewa_lod_stats *stats) {
+    if (!(parts.finer_share > 0)) return render_divided(scene, renderer, camera, options, chosen, parts.count, frame, stats);
+    ewa_lod *home = scene->lods[0];
+    ewa_frame_pair pair;
+    EWA_TRY(ewa_frame_pair_reserve(home->context, &home->mixing, camera, frame, &pair));
+    EWA_TRY(render_divided(scene, renderer, camera, options, chosen, parts.count, &pair.coarse, stats));
+    EWA_TRY(render_divided(scene, renderer, camera, options, chosen, 2 * parts.count, &pair.fine, stats));
+    ewa_frame_pair_mix(home->context, &pair, parts.finer_share, camera, 0, camera->height_px, frame);
+    return EWA_OK;
+}
+
+/// Draws surfels alone; of several ranks the part of this one, while those of all say what parts pixels have.
+static ewa_status render_surfels(const ewa_lod_scene *scene, const ewa_lod_scene *all, ewa_renderer *renderer,
+                                 const ewa_camera *camera, const ewa_render_options *options, const ewa_frame *frame,
                                  ewa_render_stats *stats) {
     EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
+    if (scene->surfels_count < all->surfels_count) ewa_render_choose_parts(renderer, all->surfels, all->surfels_count);
     for (uint32_t i = 0; i < scene->surfels_count; i++) EWA_TRY(ewa_render_add(renderer, scene->surfels[i]));
     return ewa_render_finish(renderer, stats);
 }
@@ -318,14 +333,12 @@ static ewa_status list_instances(ewa_lod_scene *scene) {
 }
 
 ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances, const ewa_render_options *options,
-                           ewa_render_options *plain, ewa_lod_options *chosen) {
+                           ewa_render_options *plain) {
     EWA_TRY(list_instances(scene));
     for (uint32_t i = 0; i < scene->lod_count; i++) EWA_TRY(ewa_tree_set_appearance(scene->lods[i], appearances ? appearances[i] : NULL));
     EWA_TRY(ewa_render_options_choose(scene->lods[0]->context, options, plain));
+    if (plain->budget_s > 0 && !plain->supersampling) plain->supersampling = 1;
     plain->budget_s = 0;
-    // Nodes are as fine as the parts that are asked for; where they are to say how many, as fine as pixels.
-    const double side_parts = fmax(plain->supersampling, 1);
-    chosen->spacing_px /= side_parts, chosen->error /= side_parts;
     return EWA_OK;
 }
 
@@ -359,10 +372,13 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_appearan
     ewa_status status = EWA_OK;
     if (own.lod_count) {
         ewa_render_options plain;
-        EWA_TRY(ewa_lod_begin_picture(&own, appearances, options, &plain, &chosen));
-        status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
+        EWA_TRY(ewa_lod_begin_picture(&own, appearances, options, &plain));
+        const ewa_lod_scene whole = {own.lods, own.lod_count, scene->surfels_count, scene->surfels};
+        ewa_division parts;
+        EWA_TRY(ewa_cut_choose_parts(&whole, camera, &plain, &chosen, &parts));
+        status = render_by_parts(&own, renderer, camera, &plain, &chosen, parts, frame, &took);
     } else {
-        status = render_surfels(&own, renderer, camera, options, frame, &took.render);
+        status = render_surfels(&own, scene, renderer, camera, options, frame, &took.render);
     }
     if (stats) *stats = took;
     return status;

@@ -244,6 +244,7 @@ static ewa_status draw(ewa_evaluator *evaluator, const ewa_camera *camera, ewa_s
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.shading = evaluator->lit ? EWA_SHADING_LAMBERT : EWA_SHADING_NONE;
+    options.supersampling = 1; // nodes are as fine as what they are drawn by
     const ewa_frame frame = {.rgba = picture};
     EWA_TRY(ewa_render_begin(evaluator->renderer, camera, &options, &frame));
     for (uint32_t i = 0; i < count; i++) {

@@ -97,6 +97,7 @@ void ewa_lod_close(ewa_lod **lod) {
     ewa_buffer_free(context, &old->items);
     ewa_buffer_free(context, &old->cover);
     ewa_buffer_free(context, &old->instances);
+    ewa_buffer_free(context, &old->mixing);
     ewa_buffer_free(context, &old->wanted);
     if (!old->is_instance) ewa_cloud_destroy(&old->represented);
     if (!old->is_instance) ewa_levels_free(context, &old->levels);

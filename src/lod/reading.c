@@ -56,7 +56,11 @@ ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene 
     ewa_lod_options_init(&chosen, sizeof chosen);
     EWA_TRY(ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen));
     EWA_TRY(ewa_camera_check(context, camera));
-    EWA_TRY(ewa_lod_begin_picture(&scene, appearances, options, &plain, &chosen));
+    EWA_TRY(ewa_lod_begin_picture(&scene, appearances, options, &plain));
+    ewa_division parts;
+    EWA_TRY(ewa_cut_choose_parts(&scene, camera, &plain, &chosen, &parts));
+    plain.supersampling = parts.finer_share > 0 ? 2 * parts.count : parts.count;
+    ewa_cut_divide(&chosen, plain.supersampling);
     ewa_cut c;
     EWA_TRY(ewa_cut_begin(&c, &scene, camera, &plain, &chosen));
     EWA_TRY(ewa_cut_list_urgent(&c));

@@ -19,10 +19,10 @@ typedef struct ewa_lod_reading {
     uint64_t frame, memory_bytes;
 } ewa_lod_reading;
 
-/// Makes a picture of octrees ready: instances in the place of octrees that are there several times, as they look; options
-/// for parts of pixels. `scene` has octrees; `appearances` and `options` may be NULL. Errors: as ewa_lod_scene_draw().
+/// Makes a picture of octrees ready: instances in the place of octrees that are there several times, as they look, and complete options,
+/// where what has but some time leaves pixels whole. `scene` has octrees; `appearances` and `options` may be NULL. Errors: as ewa_lod_scene_draw().
 ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances, const ewa_render_options *options,
-                           ewa_render_options *plain, ewa_lod_options *chosen);
+                           ewa_render_options *plain);
 
 /// Chooses at most `max_count` nodes that a picture needs and that are not in memory, the most urgent first; none where nothing
 /// is missing, or where there is no memory for more. Not while the octrees are drawn. Errors: as ewa_lod_scene_draw().

@@ -26,8 +26,9 @@ static ewa_status check_options(ewa_context *context, const ewa_render_options *
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "gradients: shading is phong, must be none or lambert");
     if (options->eye_dome > 0)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "gradients: eye_dome is %g, must be 0", options->eye_dome);
-    if (options->supersampling != 1)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "gradients: supersampling is %u, must be 1", options->supersampling);
+    if (options->supersampling > 1)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "gradients: supersampling is %u, must be 1, which 0 counts as",
+                        options->supersampling);
     if (options->level > 0 || options->budget_s > 0)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "gradients: level is %u and budget_s %g, must be 0",
                         options->level, options->budget_s);

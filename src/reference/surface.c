@@ -394,8 +394,6 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     EWA_TRY(ewa_surfels_options_choose(context, surfels_options, &chosen));
     EWA_TRY(ewa_render_options_choose(context, options, &work.options));
     EWA_TRY(ewa_camera_check(context, camera));
-    if (work.options.supersampling == 0)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "reference: supersampling is 0, must be at least 1");
     if (work.options.supersampling > 1)
         return render_parts(cloud, &chosen, unit_coverage, camera, &work.options, frame);
     EWA_TRY(ewa_surfel_reader_open(cloud, &chosen, &work.reader));

@@ -31,8 +31,8 @@ static const float GREY = 0.2f;
 /// What is off by more where it covers looks blurred, however little of the frame that is; 1/255.
 static const double MAX_RMS = 12;
 
-/// What cameras see of slopes and outlines beyond what patches show: a terrain was off by 1.4 times as much.
-static const double SAFETY_FACTOR = 1.5;
+/// What cameras see of slopes and outlines beyond what patches show: a terrain was off by 1.6 times as much.
+static const double SAFETY_FACTOR = 1.7;
 
 /// What errors grow by from level to level where surfels are as large as pixels; beyond those that are measured.
 static const double GROWTH = 2;
@@ -306,7 +306,7 @@ ewa_status ewa_details_choose(ewa_context *context, ewa_details *details, const 
                               uint32_t count, uint32_t *level) {
     *level = 0;
     // Whoever says how fine surfels are drawn has the say.
-    if (options->level || options->budget_s > 0 || options->supersampling != 1 || options->point_size_px > 0) return EWA_OK;
+    if (options->level || options->budget_s > 0 || options->supersampling > 0 || options->point_size_px > 0) return EWA_OK;
     details->frame++;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t own;

@@ -314,7 +314,7 @@ static const double ERROR_OF_NODES = 3;
 static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                        const ewa_scene_options *given, const ewa_frame *frame, ewa_scene_stats *stats) {
     ewa_scene_shown shown;
-    ewa_scene_options dotted;
+    ewa_scene_options own;
     const ewa_scene_options *options = given;
     EWA_TRY(ewa_scene_list_shown(scene, &given->lod, renderer, &shown));
     renderer->level = 0;
@@ -322,12 +322,14 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     if (size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 && !shown.lod_count)
         size_px = EWA_DOT_PX;
     if (renderer->finer > 0) size_px *= renderer->finer;
-    if (size_px != given->render.point_size_px) {
-        dotted = *given;
-        dotted.render.point_size_px = size_px;
-        options = &dotted;
+    // Of a panorama all faces are to be of one level, and of as many parts.
+    const bool one_of_six = renderer->lit_from && !given->render.supersampling;
+    if (size_px != given->render.point_size_px || one_of_six) {
+        own = *given;
+        own.render.point_size_px = size_px;
+        if (one_of_six) own.render.supersampling = 1;
+        options = &own;
     }
-    // Of a panorama all faces are to be of one level.
     if (options->many_frames && !renderer->lit_from)
         EWA_TRY(ewa_details_choose(renderer->context, &renderer->details, camera, &options->render, options->lod.error / ERROR_OF_NODES,
                                    shown.surfels, shown.surfels_count, &renderer->level));

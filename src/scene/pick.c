@@ -136,6 +136,7 @@ ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer, const 
     ewa_scene_options options = given ? *given : scene->options;
     options.render.shading = EWA_SHADING_NONE;
     options.render.eye_dome = 0;
+    if (!options.render.supersampling) options.render.supersampling = 1; // a window does not know the picture's surfels
     ewa_camera window = *camera;
     window.cx_px -= middle_x - reach, window.cy_px -= middle_y - reach;
     window.width_px = window.height_px = (uint32_t)side;

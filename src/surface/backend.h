@@ -6,6 +6,7 @@
 #define EWA_SRC_SURFACE_BACKEND_H
 
 #include "surface/render.h"
+#include "surface/parts.h"
 #include "surface/shading.h"
 
 typedef struct ewa_renderer_info ewa_renderer_info; ///< ewa/gpu.h
@@ -26,6 +27,7 @@ typedef struct ewa_render_job {
     ewa_frame frame;
     const ewa_frame_source *sources; ///< of one cutoff
     uint32_t source_count;
+    ewa_division parts;      ///< of pixels, chosen where the options do not say
     bool count_fragments; ///< for the stats
     uint32_t tile_px;     ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
     const ewa_gather *gather; ///< back from pixels to colours (gather.c); NULL: a picture
@@ -44,7 +46,8 @@ struct ewa_backend {
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
     /// Sets what of `info`, with zeros and the back end's name in it, is otherwise. NULL: nothing is.
     void (*describe)(const void *state, ewa_renderer_info *info);
-    bool joint; ///< draws frames together with other processes, each of which has a part of the sources
+    /// Adds up numbers of all processes that draw a frame together, each of which has a part of its sources. NULL: there are no others.
+    ewa_status (*add)(void *state, int64_t *numbers, uint32_t count);
 };
 
 /// Threads and vectors of the processor; what others are compared with.

@@ -19,7 +19,7 @@ enum {
 
 bool ewa_gather_takes(const ewa_render_options *options, const ewa_shading_setup *shading) {
     if (options->passes != 3 || options->kernel == EWA_KERNEL_RAYCAST || options->point_size_px > 0) return false;
-    if (options->supersampling != 1) return false;
+    if (options->supersampling > 1) return false;
     if (options->eye_dome > 0 || options->level > 0 || options->budget_s > 0 || shading->highlights) return false;
     if (!shading->lit) return true;
     const double *color = shading->lights[0].color;

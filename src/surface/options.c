@@ -76,9 +76,9 @@ static const ewa_option render_rows[] = {
     {"budget_s", EWA_OPTION_F64, OF_RENDER(budget_s), 0, 1e15, .unit = "s",
      .help = "time for a frame: of the levels of detail from `level` on, the finest that is expected to be "
              "drawn in that time; 0: `level`"},
-    {"supersampling", EWA_OPTION_U32, OF_RENDER(supersampling), 0, EWA_MAX_SUPERSAMPLING, .initial = 1,
-     .help = "draws every pixel as so many by so many parts, and their average: for what is far, where a pixel "
-             "holds many small things; 0: 1, 2, 4 or 8, as the surfels need to be about as large as a part"},
+    {"supersampling", EWA_OPTION_U32, OF_RENDER(supersampling), 0, EWA_MAX_SUPERSAMPLING,
+     .help = "draws every pixel as so many by so many parts, and their average; 0: as it is where surfels are as large as "
+             "pixels, and 2, 4 or 8 for what is far, where a pixel holds many small things"},
 };
 
 const ewa_option_table ewa_render_options_table = EWA_OPTION_TABLE(ewa_render_options, render_rows);

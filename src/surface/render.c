@@ -16,10 +16,10 @@ struct ewa_renderer {
     ewa_context *context;
     const ewa_backend *backend;
     void *state; ///< the back end's
-    bool begun;
+    bool begun, parts_are_chosen;
     ewa_render_job job;
     ewa_buffer sources;
-    ewa_buffer parts; ///< of pixels (supersampling.h)
+    ewa_buffer parts, mixing; ///< of pixels, and of pictures of these (supersampling.h)
     uint32_t tile_px; ///< 0: chosen
     ewa_budget budget;
 };
@@ -52,6 +52,7 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     old->backend->destroy(context, old->state);
     ewa_buffer_free(context, &old->sources);
     ewa_buffer_free(context, &old->parts);
+    ewa_buffer_free(context, &old->mixing);
     ewa_release(context, old, 1, sizeof *old);
     *renderer = NULL;
 }
@@ -74,8 +75,16 @@ ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
     EWA_TRY(ewa_camera_check(renderer->context, camera));
     ewa_shading_setup_make(&job->options, &job->shading);
     job->end_row_px = camera->height_px;
+    job->parts = (ewa_division){.count = job->options.supersampling ? job->options.supersampling : 1};
+    renderer->parts_are_chosen = false;
     renderer->begun = true;
     return EWA_OK;
+}
+
+/// Surfels at the level that the options ask for.
+static const ewa_surfels *surfels_at(const ewa_render_job *job, const ewa_surfels *surfels) {
+    uint32_t level = job->options.level;
+    return ewa_levels_find(surfels, &level);
 }
 
 /// What all sources of a frame have in common.
@@ -132,16 +141,14 @@ ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32
     if (job->options.budget_s > 0)
         return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
                         "render: a frame with a budget of %g s is not drawn in bands", job->options.budget_s);
-    if (job->options.supersampling == 0)
-        return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
-                        "render: supersampling is 0; what a frame needs is not known in its bands");
+    renderer->parts_are_chosen = true;
     job->first_row_px = first_px, job->end_row_px = end_px;
     return EWA_OK;
 }
 
 /// Pixels that are drawn, of parts where there is supersampling.
 static uint64_t pixels_of(const ewa_render_job *job) {
-    const uint64_t parts = (uint64_t)job->options.supersampling * job->options.supersampling;
+    const uint64_t parts = (uint64_t)job->parts.count * job->parts.count;
     return parts * job->camera.width_px * job->camera.height_px;
 }
 
@@ -183,14 +190,31 @@ static void learn(ewa_renderer *renderer, const ewa_render_stats *stats) {
     ewa_budget_learn(&renderer->budget, &frame);
 }
 
-/// Sets how many parts the frame's pixels have where its surfels are to say.
-static ewa_status choose_supersampling(ewa_renderer *renderer) {
+void ewa_render_choose_parts(ewa_renderer *renderer, const ewa_surfels *const *surfels, uint32_t count) {
     ewa_render_job *job = &renderer->job;
-    if (job->options.supersampling) return EWA_OK;
-    if (renderer->backend->joint)
-        return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
-                        "render: supersampling is 0; of several processes none knows all surfels, so say 1, 2, 4 or 8");
-    job->options.supersampling = ewa_supersampling_choose(job);
+    if (!renderer->begun || job->options.supersampling) return;
+    uint64_t packet_count = 0;
+    for (uint32_t i = 0; i < count; i++) packet_count += surfels_at(job, surfels[i])->packet_count;
+    ewa_part_areas areas = {.at = {0}};
+    for (uint32_t i = 0; i < count; i++)
+        ewa_part_areas_add_surfels(&areas, &job->camera, surfels_at(job, surfels[i]), ewa_part_areas_step(packet_count));
+    job->parts = ewa_parts_for(ewa_part_areas_octaves(&areas), &job->camera);
+    renderer->parts_are_chosen = true;
+}
+
+/// Chooses by the frame's own sources, as they are by now; of several processes by those of all.
+static ewa_status choose_parts(ewa_renderer *renderer) {
+    ewa_render_job *job = &renderer->job;
+    if (job->options.supersampling || renderer->parts_are_chosen) return EWA_OK;
+    const ewa_backend *backend = renderer->backend;
+    int64_t packet_count = 0;
+    for (uint32_t i = 0; i < job->source_count; i++) packet_count += job->sources[i].surfels->packet_count;
+    if (backend->add) EWA_TRY(backend->add(renderer->state, &packet_count, 1));
+    ewa_part_areas areas = {.at = {0}};
+    for (uint32_t i = 0; i < job->source_count; i++)
+        ewa_part_areas_add_surfels(&areas, &job->camera, job->sources[i].surfels, ewa_part_areas_step((uint64_t)packet_count));
+    if (backend->add) EWA_TRY(backend->add(renderer->state, areas.at, EWA_PART_PLACES));
+    job->parts = ewa_parts_for(ewa_part_areas_octaves(&areas), &job->camera);
     return EWA_OK;
 }
 
@@ -200,18 +224,19 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
     renderer->begun = false;
     ewa_render_job *job = &renderer->job;
-    EWA_TRY(choose_supersampling(renderer));
     uint32_t level = job->options.level;
     if (job->options.budget_s > 0) {
+        EWA_TRY(choose_parts(renderer));
         const ewa_budget_work work = work_of(job);
         level = ewa_budget_choose(&renderer->budget, job->options.budget_s, &work, level);
     }
     level = take_level(renderer, level);
+    EWA_TRY(choose_parts(renderer));
     ewa_render_stats took;
     job->count_fragments = stats != NULL;
-    if (job->options.supersampling > 1)
-        EWA_TRY(ewa_supersampling_draw(renderer->context, renderer->backend, renderer->state, job,
-                                       &renderer->parts, &took));
+    if (job->parts.count > 1 || job->parts.finer_share > 0)
+        EWA_TRY(ewa_supersampling_draw(renderer->context, renderer->backend, renderer->state, job, &renderer->parts,
+                                       &renderer->mixing, &took));
     else
         EWA_TRY(renderer->backend->draw(renderer->state, job, &took));
     took.level = level;

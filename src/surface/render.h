@@ -32,9 +32,14 @@ ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surf
 /// has there as long as its sources, or their proxies (surface/proxy.h), are the same; other pixels stay
 /// as they are. Each is a multiple of 128, or end_px the frame's height. A frame with eye-dome lighting is to be
 /// drawn band by band by one renderer, with nothing else between, the band at its end last: that puts the
-/// lighting on all of them; until then its colours are not there. Errors: EWA_ERROR_ARGUMENT (no frame; other
+/// lighting on all of them; until then its colours are not there. Options that leave open into how many parts pixels are divided
+/// leave them whole: a band does not know the frame's surfels. Errors: EWA_ERROR_ARGUMENT (no frame; other
 /// rows), EWA_ERROR_UNSUPPORTED (a frame with a budget: bands would be of different levels).
 ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32_t end_px);
+
+/// Has all of these surfels say into how many parts pixels are divided, where the options leave it to surfels: for a process that draws
+/// some of them.
+void ewa_render_choose_parts(ewa_renderer *renderer, const ewa_surfels *const *surfels, uint32_t count);
 
 /// Frames of many sources, from octrees or ranks, with more surfels than so many have tiles of this side: fewer tiles' records
 /// fit in cache than in one of the usual size.

@@ -139,9 +139,9 @@
 //
 // Supersampling: a pixel of N x N parts is the mean of the pixels of a picture N times as large, whose filter is h of
 // those: premultiplied colours over the background, coverages; its normal is their sum, of length 1, its depth the
-// smallest. Where the surfels are to say (0), N is the smallest of 1, 2, 4 and 8 for which at most half of sum r^2 is of
-// surfels with r N < EWA_PART_RADIUS_PX, over the surfels in the picture, r their radius F sigma max(fx, fy) / pz
-// (orthographic: without pz): a disc is then a part across. Points of a size in pixels and eye-dome lighting: 1.
+// smallest. Where the surfels are to say (0): with t = log2(EWA_PART_RADIUS_PX / r), r the median by r^2 of the radii F sigma max(fx, fy) / pz
+// (orthographic: without pz) in the picture, N is 1 for t <= 0, from t = k + 1/8 on 2^(k + 1), at most 8, and between k and that the
+// mean of the pictures of 2^k and 2^(k + 1), by 8 (t - k). Points of a size in pixels and eye-dome lighting: 1.
 //
 // Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_EYE_DOME_GAIN strength
 // mean), mean over EWA_EYE_DOME_PAIRS pairs of opposite pixels at x +- d of
@@ -272,7 +272,7 @@
 #define EWA_EYE_DOME_GAIN  300.0
 
 /// Support radius that surfels have in the parts of a pixel, where they say how many parts it has.
-#define EWA_PART_RADIUS_PX 0.5
+#define EWA_PART_RADIUS_PX 0.75
 
 // ---- Section 8
 

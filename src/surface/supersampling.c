@@ -11,16 +11,10 @@
 #include "surface/supersampling.h"
 #include "homogeneous/camera.h"
 #include "image/srgb.h"
-#include "surface/levels.h"
-#include "surface/packets.h"
 #include "surface/pipeline.h"
-#include "surface/semantics.h"
 
 #include <math.h>
 #include <string.h>
-
-/// Packets of which the sizes are looked at, at most.
-enum { SAMPLED_PACKETS = 1 << 14 };
 
 /// Bytes of a band's parts, about.
 #define BAND_BYTES ((uint64_t)128 << 20)
@@ -31,59 +25,6 @@ static ewa_camera finer_camera(const ewa_camera *camera, uint32_t finer) {
     fine.width_px *= finer, fine.height_px *= finer;
     fine.fx_px *= finer, fine.fy_px *= finer, fine.cx_px *= finer, fine.cy_px *= finer;
     return fine;
-}
-
-void ewa_part_areas_add(ewa_part_areas *areas, double radius_px, double area) {
-    areas->all += area;
-    for (int k = 0; k < 3; k++)
-        if (radius_px * (1 << k) < EWA_PART_RADIUS_PX) areas->smaller[k] += area;
-}
-
-uint32_t ewa_part_areas_choose(const ewa_part_areas *areas, const ewa_camera *camera) {
-    const uint32_t side_px = camera->width_px > camera->height_px ? camera->width_px : camera->height_px;
-    uint32_t parts = 1;
-    for (int k = 0; k < 3 && areas->smaller[k] > areas->all / 2 && 2 * parts * side_px <= EWA_CAMERA_MAX_SIDE_PX; k++)
-        parts *= 2;
-    return parts;
-}
-
-static void add_sizes(const ewa_render_job *job, const ewa_surfels *surfels, uint32_t step, ewa_part_areas *areas) {
-    const ewa_camera *camera = &job->camera;
-    const double *m = camera->world_to_camera;
-    const double zoom = fmax(camera->fx_px, camera->fy_px);
-    for (uint32_t p = 0; p < surfels->packet_count; p += step) {
-        const ewa_vec3 center = ewa_packet_center(surfels, p);
-        const double at[3] = {center.x * surfels->unit + surfels->origin_world[0],
-                              center.y * surfels->unit + surfels->origin_world[1],
-                              center.z * surfels->unit + surfels->origin_world[2]};
-        double camera_at[3];
-        for (int r = 0; r < 3; r++)
-            camera_at[r] = m[4 * r] * at[0] + m[4 * r + 1] * at[1] + m[4 * r + 2] * at[2] + m[4 * r + 3];
-        const bool flat = camera->projection == EWA_ORTHOGRAPHIC;
-        const double depth = flat ? 1 : camera_at[2], sigma = (double)surfels->packets[p].sigma[0] * surfels->unit;
-        if (!(camera_at[2] > 0) || !(sigma > 0)) continue;
-        const double x = camera->fx_px * camera_at[0] / depth + camera->cx_px;
-        const double y = camera->fy_px * camera_at[1] / depth + camera->cy_px;
-        if (x < 0 || y < 0 || x > camera->width_px || y > camera->height_px) continue;
-        const double scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-        const double radius_px = surfels->cutoff * sigma * scale * zoom / depth;
-        ewa_part_areas_add(areas, radius_px, radius_px * radius_px);
-    }
-}
-
-/// A source at the level that the options ask for.
-static const ewa_surfels *drawn_surfels(const ewa_render_job *job, uint32_t source) {
-    uint32_t level = job->options.level;
-    return ewa_levels_find(job->sources[source].surfels, &level);
-}
-
-uint32_t ewa_supersampling_choose(const ewa_render_job *job) {
-    uint64_t packet_count = 0;
-    for (uint32_t i = 0; i < job->source_count; i++) packet_count += drawn_surfels(job, i)->packet_count;
-    ewa_part_areas areas = {.all = 0};
-    for (uint32_t i = 0; i < job->source_count; i++)
-        add_sizes(job, drawn_surfels(job, i), (uint32_t)(packet_count / SAMPLED_PACKETS) + 1, &areas);
-    return ewa_part_areas_choose(&areas, &job->camera);
 }
 
 typedef struct average_job {
@@ -102,18 +43,29 @@ static void sum_parts(const average_job *job, const float *plane, uint32_t count
     }
 }
 
+/// Stores a pixel's colour, linear and premultiplied, in the planes that there are.
+static void store_color(const ewa_frame *frame, size_t pixel, const float rgba[4]) {
+    if (frame->rgba) memcpy(frame->rgba + 4 * pixel, rgba, 4 * sizeof *rgba);
+    if (!frame->rgba8) return;
+    uint8_t *codes = frame->rgba8 + 4 * pixel;
+    const float alpha = rgba[3] < 1 ? rgba[3] : 1;
+    for (uint32_t c = 0; c < 3; c++) codes[c] = alpha > 0 ? ewa_srgb8_from_linear(rgba[c] / alpha) : 0;
+    codes[3] = (uint8_t)(255 * alpha + 0.5f);
+}
+
+/// Stores a pixel's normal, of length 1 unless it is 0.
+static void store_normal(const ewa_frame *frame, size_t pixel, const float n[3]) {
+    const float length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], scale = length2 > 0 ? 1 / sqrtf(length2) : 0;
+    for (uint32_t c = 0; c < 3; c++) frame->normal[3 * pixel + c] = n[c] * scale;
+}
+
 static void average_colors(const average_job *job, uint32_t x, uint32_t y) {
     const float share = 1 / (float)(job->finer * job->finer);
     const size_t pixel = (size_t)y * job->width_px + x;
     float rgba[4];
     sum_parts(job, job->fine->rgba, 4, x, y, rgba);
     for (uint32_t c = 0; c < 4; c++) rgba[c] *= share;
-    if (job->frame->rgba) memcpy(job->frame->rgba + 4 * pixel, rgba, sizeof rgba);
-    if (!job->frame->rgba8) return;
-    uint8_t *codes = job->frame->rgba8 + 4 * pixel;
-    const float alpha = rgba[3] < 1 ? rgba[3] : 1;
-    for (uint32_t c = 0; c < 3; c++) codes[c] = alpha > 0 ? ewa_srgb8_from_linear(rgba[c] / alpha) : 0;
-    codes[3] = (uint8_t)(255 * alpha + 0.5f);
+    store_color(job->frame, pixel, rgba);
 }
 
 /// The nearest depth, so that none lies between two surfaces.
@@ -129,8 +81,7 @@ static void take_depth(const average_job *job, uint32_t x, uint32_t y) {
 static void average_normals(const average_job *job, uint32_t x, uint32_t y) {
     float n[3];
     sum_parts(job, job->fine->normal, 3, x, y, n);
-    const float length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], scale = length2 > 0 ? 1 / sqrtf(length2) : 0;
-    for (uint32_t c = 0; c < 3; c++) job->frame->normal[3 * ((size_t)y * job->width_px + x) + c] = n[c] * scale;
+    store_normal(job->frame, (size_t)y * job->width_px + x, n);
 }
 
 static void average_row(void *data, uint32_t y, uint32_t worker) {
@@ -191,10 +142,9 @@ static ewa_status reserve_parts(ewa_context *context, ewa_buffer *room, const ew
 }
 
 /// Rows of pixels that are drawn at a time. Frames of several processes are drawn whole.
-static uint32_t band_rows_px(const ewa_backend *backend, const ewa_render_job *job) {
-    if (backend->joint) return job->camera.height_px;
-    const uint64_t finer = job->options.supersampling,
-                   row_bytes = finer * finer * job->camera.width_px * 4 * sizeof(float);
+static uint32_t band_rows_px(const ewa_backend *backend, const ewa_render_job *job, uint64_t finer) {
+    if (backend->add) return job->camera.height_px;
+    const uint64_t row_bytes = finer * finer * job->camera.width_px * 4 * sizeof(float);
     const uint64_t fields = BAND_BYTES / (row_bytes * EWA_FIELD_PX);
     return EWA_FIELD_PX * (uint32_t)(fields < 1 ? 1
                                      : fields > EWA_CAMERA_MAX_SIDE_PX / EWA_FIELD_PX
@@ -202,16 +152,16 @@ static uint32_t band_rows_px(const ewa_backend *backend, const ewa_render_job *j
                                          : fields);
 }
 
-ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backend, void *state,
-                                  const ewa_render_job *job, ewa_buffer *room, ewa_render_stats *stats) {
-    const uint32_t finer = job->options.supersampling, width_px = job->camera.width_px;
+/// Draws every pixel as `finer` squared.
+static ewa_status draw_parts(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                             uint32_t finer, ewa_buffer *room, ewa_render_stats *stats) {
+    const uint32_t width_px = job->camera.width_px;
     if ((uint64_t)finer * width_px > EWA_CAMERA_MAX_SIDE_PX ||
         (uint64_t)finer * job->camera.height_px > EWA_CAMERA_MAX_SIDE_PX)
         return ewa_fail(context, EWA_ERROR_LIMIT,
                         "render: supersampling is %u; %u times %u x %u pixels are more than %d along a side", finer,
                         finer, width_px, job->camera.height_px, EWA_CAMERA_MAX_SIDE_PX);
-    const uint32_t band_px = band_rows_px(backend, job);
-    *stats = (ewa_render_stats){.splat_count = 0};
+    const uint32_t band_px = band_rows_px(backend, job, finer);
     for (uint32_t first_px = job->first_row_px; first_px < job->end_row_px; first_px += band_px) {
         const uint32_t end_px = job->end_row_px - first_px < band_px ? job->end_row_px : first_px + band_px;
         ewa_render_job fine = *job;
@@ -231,4 +181,75 @@ ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backe
         ewa_parallel(context, average_row, &average, end_px - first_px);
     }
     return EWA_OK;
+}
+
+ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                                  ewa_buffer *room, ewa_buffer *mixing, ewa_render_stats *stats) {
+    *stats = (ewa_render_stats){.splat_count = 0};
+    const ewa_division parts = job->parts;
+    if (!(parts.finer_share > 0)) return draw_parts(context, backend, state, job, parts.count, room, stats);
+    ewa_frame_pair pair;
+    EWA_TRY(ewa_frame_pair_reserve(context, mixing, &job->camera, &job->frame, &pair));
+    ewa_render_job own = *job;
+    own.frame = pair.coarse;
+    EWA_TRY(draw_parts(context, backend, state, &own, parts.count, room, stats));
+    own.frame = pair.fine;
+    EWA_TRY(draw_parts(context, backend, state, &own, 2 * parts.count, room, stats));
+    ewa_frame_pair_mix(context, &pair, parts.finer_share, &job->camera, job->first_row_px, job->end_row_px, &job->frame);
+    return EWA_OK;
+}
+
+ewa_status ewa_frame_pair_reserve(ewa_context *context, ewa_buffer *room, const ewa_camera *camera, const ewa_frame *frame,
+                                  ewa_frame_pair *pair) {
+    const size_t count = (size_t)camera->width_px * camera->height_px;
+    const size_t channels = (frame->rgba || frame->rgba8 ? 4 : 0) + (frame->depth ? 1 : 0) + (frame->normal ? 3 : 0) +
+                            (frame->coverage ? 1 : 0);
+    EWA_TRY(ewa_buffer_reserve(context, room, count * channels, 2 * sizeof(float)));
+    // Ranks that get no picture draw nothing into them.
+    if (channels > 0) memset(room->data, 0, count * channels * 2 * sizeof(float));
+    float *at = room->data;
+    ewa_frame *const frames[] = {&pair->coarse, &pair->fine};
+    for (int i = 0; i < 2; i++) {
+        *frames[i] = (ewa_frame){.rgba8 = NULL};
+        if (frame->rgba || frame->rgba8) frames[i]->rgba = at, at += 4 * count;
+        if (frame->depth) frames[i]->depth = at, at += count;
+        if (frame->normal) frames[i]->normal = at, at += 3 * count;
+        if (frame->coverage) frames[i]->coverage = at, at += count;
+    }
+    return EWA_OK;
+}
+
+typedef struct mix_job {
+    const ewa_frame_pair *pair;
+    const ewa_frame *frame;
+    float finer_share;
+    uint32_t first_px, width_px;
+} mix_job;
+
+static float mix(float coarse, float fine, float finer_share) { return coarse + finer_share * (fine - coarse); }
+
+static void mix_row(void *data, uint32_t y, uint32_t worker) {
+    (void)worker;
+    const mix_job *job = data;
+    const ewa_frame *coarse = &job->pair->coarse, *fine = &job->pair->fine, *frame = job->frame;
+    const size_t first = ((size_t)job->first_px + y) * job->width_px;
+    for (size_t i = first; i < first + job->width_px; i++) {
+        if (coarse->rgba) {
+            float rgba[4];
+            for (int c = 0; c < 4; c++) rgba[c] = mix(coarse->rgba[4 * i + c], fine->rgba[4 * i + c], job->finer_share);
+            store_color(frame, i, rgba);
+        }
+        if (frame->depth) frame->depth[i] = fminf(coarse->depth[i], fine->depth[i]);
+        if (frame->coverage) frame->coverage[i] = mix(coarse->coverage[i], fine->coverage[i], job->finer_share);
+        if (!frame->normal) continue;
+        float n[3];
+        for (int c = 0; c < 3; c++) n[c] = mix(coarse->normal[3 * i + c], fine->normal[3 * i + c], job->finer_share);
+        store_normal(frame, i, n);
+    }
+}
+
+void ewa_frame_pair_mix(ewa_context *context, const ewa_frame_pair *pair, double finer_share, const ewa_camera *camera,
+                        uint32_t first_px, uint32_t end_px, const ewa_frame *frame) {
+    mix_job job = {pair, frame, (float)finer_share, first_px, camera->width_px};
+    ewa_parallel(context, mix_row, &job, end_px - first_px);
 }

@@ -91,6 +91,9 @@ static void mix(int index, joint_frame *made) {
     case 19:
         o->supersampling = 3;
         break;
+    case 20: // of surfels far below a pixel, which say how many parts it has
+        made->camera.fx_px /= 16, made->camera.fy_px /= 16;
+        break;
     default:
         o->edge_layers = 1;
         o->cull = EWA_CULL_BACK;

@@ -8,7 +8,7 @@
 #include "splat/picture.h"
 #include "surface/render.h"
 
-enum { JOINT_FRAMES = 21, JOINT_WIDTH_PX = 150, JOINT_HEIGHT_PX = 131, JOINT_PARTS = 5 };
+enum { JOINT_FRAMES = 22, JOINT_WIDTH_PX = 150, JOINT_HEIGHT_PX = 131, JOINT_PARTS = 5 };
 
 /// A frame of JOINT_PARTS sources.
 typedef struct joint_frame {

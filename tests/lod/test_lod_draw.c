@@ -49,9 +49,10 @@ static ewa_lod *open_file(ewa_context *context, const char *name) {
     return lod;
 }
 
+/// Pixels as they are.
 static ewa_render_options over_black(void) {
     WITH_DEFAULTS(ewa_render_options, options);
-    options.background[3] = 1;
+    options.background[3] = 1, options.supersampling = 1;
     return options;
 }
 
@@ -339,6 +340,27 @@ TEST_ON(test_supersampling, 2) {
     }
     assert_true(found[0] > found[1] + 3 && found[2] > found[1] + 3 && found[3] > found[1] + 2);
     free(truth);
+}
+
+/// Where nobody says how many parts: one near by, and from far away as many as take no more surfels than a picture that octrees fill.
+TEST_ON(test_parts_by_default, 2) {
+    static const double distances[] = {1, 40, 64, 100};
+    double before_db = 0;
+    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
+        const ewa_camera camera = camera_at(distances[i]);
+        ewa_lod *lod = open_file(context, file);
+        shot *truth = draw_parts(NULL, context, &camera, NULL, EWA_MAX_SUPERSAMPLING);
+        shot *whole = draw_parts(lod, context, &camera, NULL, 1), *made = draw_parts(lod, context, &camera, NULL, 0);
+        const double db = psnr_db(truth, made), whole_db = psnr_db(truth, whole);
+        print_message("%g: %.1f dB, %llu surfels; as they are %.1f, %llu\n", distances[i], db,
+                      (unsigned long long)made->stats.surfel_count, whole_db, (unsigned long long)whole->stats.surfel_count);
+        if (i == 0) hold_same(whole, made);
+        if (i > 0) assert_true(db > whole_db + 3 && made->stats.surfel_count < 2 << 20);
+        before_db = db;
+        free(truth), free(whole), free(made);
+        ewa_lod_close(&lod);
+    }
+    assert_true(before_db > 30);
 }
 
 /// Bands know as little of each other's nodes as ranks do, and come to as many parts.

@@ -103,7 +103,7 @@ ewa_status acquire_draw(const acquire_scene *scene, const ewa_cloud *cloud, ewa_
     ewa_camera_look_at(&camera, eye, target, up);
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    options.edge_antialiasing = false;
+    options.edge_antialiasing = false, options.supersampling = 1;
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
     ewa_image drawn = {0};

@@ -238,6 +238,7 @@ TEST_ON(test_silhouettes_follow_the_filter, 0) {
         WITH_DEFAULTS(ewa_render_options, options);
         options.prefilter_px = prefilters_px[i / 3];
         options.edge_threshold = thresholds[i % 3];
+        options.supersampling = 1;
         const double expected = options.prefilter_px * tail(options.edge_threshold * (1 - sqrt(0.5)));
         const outline_errors found = draw(context, cloud, &camera, &options, &truth);
         print_message("h %.2f, tau %.2f: fat %+.3f px, by the filter %+.3f, rms %.3f\n", options.prefilter_px,

@@ -104,7 +104,7 @@ TEST_ON(test_whoever_says_how_fine_has_the_say, 0) {
     options.lod.error = 0;
     assert_int_equal(draw(&of, renderer, 16, &options, some), 0);
     options = options_of(true);
-    options.render.supersampling = 0;
+    options.render.supersampling = 1;
     assert_int_equal(draw(&of, renderer, 16, &options, some), 0);
     options = options_of(true);
     options.render.level = 1;

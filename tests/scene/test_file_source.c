@@ -143,7 +143,10 @@ static ewa_status draw(ewa_context *context, ewa_scene *scene, double zoom, uint
     EWA_TRY(ewa_scene_place_camera(scene, &view, &camera, NULL));
     camera.fx_px *= zoom, camera.fy_px *= zoom;
     EWA_TRY(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer));
-    const ewa_status status = ewa_scene_draw(scene, renderer, &camera, NULL, &(ewa_frame){.rgba8 = rgba8}, NULL);
+    ewa_scene_options options;
+    ewa_scene_get_options(scene, &options);
+    options.render.supersampling = 1; // by nodes as fine as pixels
+    const ewa_status status = ewa_scene_draw(scene, renderer, &camera, &options, &(ewa_frame){.rgba8 = rgba8}, NULL);
     ewa_scene_renderer_destroy(&renderer);
     return status;
 }

@@ -96,6 +96,7 @@ static ewa_status try_draw(ewa_context *context, ewa_scene *scene, const ewa_cam
     options.lod.error = error;
     options.lod.spacing_px = 4;                // the picture is small
     options.render.shading = EWA_SHADING_NONE; // so that only places and colours differ
+    options.render.supersampling = 1;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     const ewa_frame frame = {.rgba8 = to->rgba8, .depth = to->depth};
     const ewa_status status = ewa_scene_draw(scene, renderer, camera, &options, &frame, &to->stats);

@@ -91,6 +91,7 @@ TEST(test_face_the_picture) {
         WITH_DEFAULTS(ewa_surfels_options, surfels);
         WITH_DEFAULTS(ewa_render_options, options);
         options.cull = i % 2 ? EWA_CULL_BACK : EWA_CULL_NONE;
+        options.supersampling = 1;
         ewa_cloud *facing = make_points(context, forward, true, 0), *strewn = make_points(context, forward, false, 1);
         picture wanted = picture_draw(context, facing, &camera, &surfels, &options);
         picture shown = picture_draw(context, strewn, &camera, &surfels, &options);

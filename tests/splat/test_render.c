@@ -241,8 +241,10 @@ TEST_ON(test_dense_tile_holds, 0) {
     ewa_surfels_describe(surfels, &info);
     of.unit_coverage = info.unit_coverage;
     ewa_surfels_destroy(&surfels);
-    picture reference = picture_of_scene(&of, NULL, NULL),
-            fast = picture_draw(context, of.cloud, &of.camera, NULL, NULL);
+    WITH_DEFAULTS(ewa_render_options, whole);
+    whole.supersampling = 1;
+    picture reference = picture_of_scene(&of, NULL, &whole),
+            fast = picture_draw(context, of.cloud, &of.camera, NULL, &whole);
     uint8_t mask[48 * 40];
     picture_mark_edges(&of, NULL, NULL, 2e-3, 1e-3, mask);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, mask);

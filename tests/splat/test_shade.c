@@ -178,6 +178,7 @@ TEST_ON(test_constant_environment, 0) {
             const ewa_camera camera = shade_camera(side_px, EYE, 32, 0);
             ewa_render_options options = phong_options(&mirror);
             options.environment = environment;
+            options.supersampling = 1;
             picture shown = draw(context, way, cloud, &camera, &options);
             uint32_t covered = 0;
             for (size_t p = 0; p < (size_t)side_px * side_px; p++) {

@@ -6,6 +6,8 @@
 #include "check.h"
 #include "quality/far_scene.h"
 #include "reference/surface.h"
+#include "homogeneous/camera.h"
+#include "surface/parts.h"
 #include "surface/render.h"
 
 #include <math.h>
@@ -46,7 +48,7 @@ static ewa_surfels *make_surfels(ewa_context *context, far_kind kind, uint64_t c
 
 static ewa_render_options options_of(uint32_t supersampling) {
     WITH_DEFAULTS(ewa_render_options, options);
-    assert_int_equal(options.supersampling, 1);
+    assert_int_equal(options.supersampling, 0);
     options.supersampling = supersampling;
     return options;
 }
@@ -187,9 +189,6 @@ TEST_ON(test_reference_draws_the_same, 2) {
     const double db = 10 * log10(4 * PIXELS / square);
     print_message("%.1f dB from the reference\n", db);
     assert_true(db > 50);
-    options.supersampling = 0;
-    assert_int_equal(ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &options, &plain.frame),
-                     EWA_ERROR_UNSUPPORTED);
     free(fast.memory);
     free(plain.memory);
     ewa_surfels_destroy(&surfels);
@@ -203,12 +202,12 @@ TEST_ON(test_surfels_say_how_many_parts, 2) {
         uint32_t parts;
     } cases[] = {{0.05, 1}, {1, 1}, {2, 2}, {4, 4}, {8, 8}, {200, 8}};
     ewa_bounds bounds;
-    // Discs are 1.6 spacings of sqrt(4 pi / 40,000) in radius, 0.7 px from the distance that is called 1 here.
+    // Discs are 1.6 spacings of sqrt(4 pi / 40,000) in radius, 1.05 px from the distance that is called 1 here.
     ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
     const planes chosen = make_planes(PIXELS), said = make_planes(PIXELS);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
-        camera.fx_px *= 1.7 / cases[i].times, camera.fy_px *= 1.7 / cases[i].times;
+        camera.fx_px *= 2.55 / cases[i].times, camera.fy_px *= 2.55 / cases[i].times;
         const ewa_render_options open = options_of(0), fixed = options_of(cases[i].parts);
         draw(context, surfels, &camera, &open, &chosen);
         draw(context, surfels, &camera, &fixed, &said);
@@ -217,6 +216,113 @@ TEST_ON(test_surfels_say_how_many_parts, 2) {
     free(chosen.memory);
     free(said.memory);
     ewa_surfels_destroy(&surfels);
+}
+
+/// Sizes between two counts of parts are told apart, and where one takes over from another both are drawn.
+TEST(test_sizes_say_how_many_parts) {
+    const ewa_camera camera = {.width_px = SIDE_PX, .height_px = SIDE_PX};
+    double before = -1;
+    for (double octaves = -0.9; octaves < 3.5; octaves += 1.0 / 64) {
+        ewa_part_areas areas = {.at = {0}};
+        ewa_part_areas_add(&areas, 0.75 * exp2(-octaves), 3);
+        ewa_part_areas_add(&areas, 100, 1), ewa_part_areas_add(&areas, 0.01, 1);
+        assert_true(fabs(ewa_part_areas_octaves(&areas) - fmin(octaves, 3.25)) < 0.07);
+        const ewa_division parts = ewa_parts_for(octaves, &camera);
+        const double now = log2(parts.count) + parts.finer_share, slope = 8.0 / 64;
+        assert_true(parts.finer_share >= 0 && parts.finer_share < 1);
+        assert_true(before < 0 || (now >= before && now <= before + slope + 1e-9));
+        assert_true(now <= fmax(octaves, -1) + 1 && now >= fmin(octaves, 3) - 0.125);
+        before = now;
+    }
+    assert_true(before == 3);
+    // Half of the area as large as a pixel leaves it whole, however small the rest is; so does a frame that shows nothing.
+    ewa_part_areas areas = {.at = {0}};
+    assert_true(ewa_part_areas_octaves(&areas) == -1);
+    ewa_part_areas_add(&areas, 0.75, 2), ewa_part_areas_add(&areas, 0.01, 1);
+    assert_true(ewa_part_areas_octaves(&areas) <= 1.0 / 16);
+    ewa_part_areas_add(&areas, 2, 4);
+    assert_true(ewa_part_areas_octaves(&areas) == -1);
+    // A picture's sides have a limit.
+    const ewa_camera large = {.width_px = EWA_CAMERA_MAX_SIDE_PX / 2, .height_px = 1};
+    assert_int_equal(ewa_parts_for(3, &large).count, 2);
+    assert_true(ewa_parts_for(3, &large).finer_share == 0);
+}
+
+static double rms(const planes *a, const planes *b) {
+    double square = 0;
+    for (size_t i = 0; i < 4 * PIXELS; i++) square += pow((double)a->frame.rgba[i] - (double)b->frame.rgba[i], 2);
+    return sqrt(square / (4 * PIXELS));
+}
+
+/// In between a picture is the mean of both, plane by plane.
+TEST_ON(test_parts_take_over_gradually, 2) {
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
+    const planes mixed = make_planes(PIXELS), coarse = make_planes(PIXELS), fine = make_planes(PIXELS);
+    const planes before[] = {make_planes(PIXELS), make_planes(PIXELS), make_planes(PIXELS)};
+    const ewa_render_options open = options_of(0), one = options_of(1), two = options_of(2);
+    int between = 0;
+    for (int frame = 0; frame < 60; frame++) {
+        ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
+        camera.fx_px *= 2 * exp2(-frame / 60.0), camera.fy_px = camera.fx_px;
+        draw(context, surfels, &camera, &open, &mixed);
+        draw(context, surfels, &camera, &one, &coarse);
+        draw(context, surfels, &camera, &two, &fine);
+        if (!same_planes(&mixed, &coarse) && !same_planes(&mixed, &fine)) between++;
+        double share = -1;
+        for (size_t i = 0; i < PIXELS; i++) {
+            assert_true(mixed.frame.depth[i] == fminf(coarse.frame.depth[i], fine.frame.depth[i]) ||
+                        mixed.frame.depth[i] == coarse.frame.depth[i] || mixed.frame.depth[i] == fine.frame.depth[i]);
+            for (size_t c = 4 * i; c < 4 * i + 4; c++) {
+                const double step = (double)fine.frame.rgba[c] - (double)coarse.frame.rgba[c];
+                if (fabs(step) < 0.02) continue;
+                const double own = ((double)mixed.frame.rgba[c] - (double)coarse.frame.rgba[c]) / step;
+                if (share < 0) share = own;
+                assert_true(fabs(own - share) < 1e-3);
+            }
+            assert_true(fabs((double)mixed.frame.coverage[i] - (double)coarse.frame.coverage[i] -
+                             fmax(share, 0) * ((double)fine.frame.coverage[i] - (double)coarse.frame.coverage[i])) < 2e-2);
+        }
+        assert_true(share <= 1.001);
+        // From frame to frame there is what changes in both, and a part of what they differ by.
+        if (frame)
+            assert_true(rms(&mixed, &before[0]) <= fmax(rms(&coarse, &before[1]), rms(&fine, &before[2])) + 0.2 * rms(&coarse, &fine));
+        const planes *const drawn[] = {&mixed, &coarse, &fine};
+        for (int i = 0; i < 3; i++) memcpy(before[i].memory, drawn[i]->memory, PIXELS * 10 * sizeof(float));
+    }
+    print_message("%d frames between\n", between);
+    assert_true(between >= 5 && between <= 9);
+    const planes *const all[] = {&mixed, &coarse, &fine, &before[0], &before[1], &before[2]};
+    for (int i = 0; i < 6; i++) free(all[i]->memory);
+    ewa_surfels_destroy(&surfels);
+}
+
+/// What has time enough is drawn as what has no end of it, and a coarser level by fewer parts.
+TEST_ON(test_a_budget_has_parts_of_its_level, 0) {
+    ewa_cloud *cloud = NULL;
+    ewa_bounds bounds;
+    assert_int_equal(far_make(context, FAR_SPHERE, 20000, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
+    WITH_DEFAULTS(ewa_surfels_options, with_levels);
+    with_levels.level_count = 2;
+    ewa_surfels *surfels = check_surfels(cloud, &with_levels);
+    const planes a = make_planes(PIXELS), b = make_planes(PIXELS);
+    ewa_camera camera = far_camera(&bounds, 4, SIDE_PX, 1);
+    ewa_render_options options = options_of(0), hurried = options;
+    hurried.budget_s = 1e6;
+    draw(context, surfels, &camera, &options, &a);
+    draw(context, surfels, &camera, &hurried, &b);
+    assert_true(same_planes(&a, &b));
+    options.level = hurried.level = 1, hurried.budget_s = 1e-9;
+    draw(context, surfels, &camera, &options, &a);
+    draw(context, surfels, &camera, &hurried, &b);
+    assert_true(same_planes(&a, &b));
+    options.supersampling = 8;
+    draw(context, surfels, &camera, &options, &b);
+    assert_false(same_planes(&a, &b));
+    free(a.memory), free(b.memory);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
 }
 
 TEST(test_refused) {
@@ -233,9 +339,6 @@ TEST(test_refused) {
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_ERROR_UNSUPPORTED);
     options.supersampling = 0;
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_OK);
-    options = options_of(0);
-    assert_int_equal(ewa_render_begin(renderer, &camera, &options, &to.frame), EWA_OK);
-    assert_int_equal(ewa_render_set_rows(renderer, 0, SIDE_PX), EWA_ERROR_UNSUPPORTED);
     options = options_of(8), camera.width_px = 8193;
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_ERROR_LIMIT);
     assert_non_null(strstr(log.text, "8193"));

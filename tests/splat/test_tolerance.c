@@ -42,7 +42,7 @@ static void draw(ewa_context *context, ewa_kernel kernel, uint64_t count, const 
     WITH_DEFAULTS(ewa_render_options, options);
     options.kernel = kernel;
     options.prefilter_px = 0;
-    options.edge_antialiasing = false;
+    options.edge_antialiasing = false, options.supersampling = 1;
     options.shading = EWA_SHADING_NONE;
     const scene of = {.cloud = cloud, .camera = camera, .unit_coverage = 1};
     made[0] = picture_of_scene(&of, NULL, &options);
