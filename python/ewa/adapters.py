@@ -99,6 +99,8 @@ def _parts_of(value: Any, context: Context | None) -> list[_Part]:
         return [cloud_of_columns({name: value[name] for name in value.dtype.names}, context)]
     if hasattr(value, "__array__") or hasattr(value, "__dlpack__"):
         return [_of_array(as_numbers(value, "array"), value, context)]
+    if isinstance(value, (list, tuple)) and all(isinstance(number, (int, float)) for number in value):
+        raise TypeError("a list is of several things to draw; places in lists are ewa.Cloud([[x, y, z], ...])")
     raise TypeError(f"nothing is drawn of {_kind(value)}; there are paths, arrays, dicts of them, bytes of files, and objects "
                     f"of {', '.join(_PACKAGES)}")
 

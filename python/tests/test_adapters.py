@@ -453,6 +453,12 @@ class Everywhere(Both):
             ewa.render(scene)
         with self.assertRaises(TypeError):
             ewa.render(cloud.surfels(), radius_scale=2)
+        wrong: list[tuple[Any, dict[str, Any], str]] = [
+            ([[0, 0, 0], [1, 0, 0]], {}, r"places in lists are ewa.Cloud"), (points, {"shadng": "phong"}, "shading\\?"),
+            (points, {"color_by": "z"}, r"ewa.Scene\(\).add")]
+        for thing, options, said in wrong:
+            with self.assertRaisesRegex(TypeError, said):
+                ewa.render(thing, **options)
 
 
 if __name__ == "__main__":
