@@ -307,12 +307,12 @@ static ewa_status render_by_parts(const ewa_lod_scene *scene, ewa_renderer *rend
     return EWA_OK;
 }
 
-/// Draws surfels alone; of several ranks the part of this one, while those of all say what parts pixels have.
+/// Draws surfels alone; of several ranks the part of this one, while those of `all`, which each of them knows, say what parts pixels have.
 static ewa_status render_surfels(const ewa_lod_scene *scene, const ewa_lod_scene *all, ewa_renderer *renderer,
                                  const ewa_camera *camera, const ewa_render_options *options, const ewa_frame *frame,
                                  ewa_render_stats *stats) {
     EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
-    if (scene->surfels_count < all->surfels_count) ewa_render_choose_parts(renderer, all->surfels, all->surfels_count);
+    if (all) ewa_render_choose_parts(renderer, all->surfels, all->surfels_count);
     for (uint32_t i = 0; i < scene->surfels_count; i++) EWA_TRY(ewa_render_add(renderer, scene->surfels[i]));
     return ewa_render_finish(renderer, stats);
 }
@@ -378,7 +378,7 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_appearan
         EWA_TRY(ewa_cut_choose_parts(&whole, camera, &plain, &chosen, &parts));
         status = render_by_parts(&own, renderer, camera, &plain, &chosen, parts, frame, &took);
     } else {
-        status = render_surfels(&own, scene, renderer, camera, options, frame, &took.render);
+        status = render_surfels(&own, chosen.share_count ? scene : NULL, renderer, camera, options, frame, &took.render);
     }
     if (stats) *stats = took;
     return status;
