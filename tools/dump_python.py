@@ -174,10 +174,27 @@ def write_enum(name, items):
     return lines + [f"    {item} = {value}" for item, value in items.items()] + ["", ""]
 
 
+STRUCT = """\
+_Type = TypeVar("_Type", bound=c.Structure)
+
+
+def _struct(made: type[_Type]) -> type[_Type]:
+    \"\"\"A struct whose annotations are its members: of each a struct, or its type in Python with that in C.\"\"\"
+    made._fields_ = [(name, getattr(kind, "__metadata__", (kind,))[0]) for name, kind in made.__annotations__.items()]
+    return made"""
+
+
+def optional(annotation):
+    """Without `X | None`, which Python before 3.10 does not take where annotations are read."""
+    return re.sub(r"^(\w+) \| None$", r"Optional[\1]", annotation)
+
+
 def write_struct(name, members):
-    fields = [f"    {member}: {annotation}" for member, _, annotation in members]
-    lines = [f"class {name}(c.Structure):"] + fields + ["    _fields_ = ["]
-    return lines + [f'        ("{member}", {ctype}),' for member, ctype, _ in members] + ["    ]", "", ""]
+    lines = ["@_struct", f"class {name}(c.Structure):"]
+    for member, ctype, annotation in members:
+        kind = annotation if ctype == annotation else f"Annotated[{optional(annotation)}, {ctype}]"
+        lines.append(f"    {member}: {kind}")
+    return ["", ""] + lines
 
 
 def ordered(needs):
@@ -205,7 +222,7 @@ def write_bindings(api):
     for name, text in api.callbacks.items():
         types.needed = set()
         result, parameters = re.fullmatch(rf"(.*?)\b{name}\((.*)\)", text).groups()
-        written[name] = [f"{name} = c.CFUNCTYPE({', '.join(types.signature(result, parameters))})", "", ""]
+        written[name] = [f"{name} = c.CFUNCTYPE({', '.join(types.signature(result, parameters))})"]
         needs[name] = types.needed
     for name, members in api.structs.items():
         types.needed = set()
@@ -213,14 +230,17 @@ def write_bindings(api):
         needs[name] = types.needed
     lines = [HEAD.format(source="docs/api.json"),
              '"""The C interface of libewa as ctypes, under its own names; see include/ewa."""',
-             "from __future__ import annotations", "", "import ctypes as c", "from enum import IntEnum",
-             "from typing import Any, Callable", "", ""]
+             "import ctypes as c", "from enum import IntEnum",
+             "from typing import Annotated, Any, Callable, Optional, TypeVar", "", ""]
     lines += [f"{name} = {value!r}" for name, value in api.constants.items()] + ["", ""]
     for name, items in api.enums.items():
         lines += write_enum(name, items)
+    lines += STRUCT.split("\n")
+    before = True
     for name in ordered(needs):
-        lines += written[name]
-    lines += ["#: Tables of options that the library exports.", "TABLES = ("]
+        lines += ["", ""] * (before and name not in api.structs) + written[name]
+        before = name in api.structs
+    lines += ["", "", "#: Tables of options that the library exports.", "TABLES = ("]
     lines += [f'    "{table}",' for table in api.tables] + [")", "", ""]
     binds = []
     for name, text in api.functions.items():

@@ -4,11 +4,9 @@
 # Made by tools/dump_python.py from docs/api.json; a test holds it to that. Do not edit.
 
 """The C interface of libewa as ctypes, under its own names; see include/ewa."""
-from __future__ import annotations
-
 import ctypes as c
 from enum import IntEnum
-from typing import Any, Callable
+from typing import Annotated, Any, Callable, Optional, TypeVar
 
 
 EWA_CPU_AVX2 = 1
@@ -477,2365 +475,1382 @@ class ewa_warp_method(IntEnum):
     EWA_WARP_MCMILLAN = 1
 
 
+_Type = TypeVar("_Type", bound=c.Structure)
+
+
+def _struct(made: type[_Type]) -> type[_Type]:
+    """A struct whose annotations are its members: of each a struct, or its type in Python with that in C."""
+    made._fields_ = [(name, getattr(kind, "__metadata__", (kind,))[0]) for name, kind in made.__annotations__.items()]
+    return made
+
+
+@_struct
 class ewa_file_source(c.Structure):
-    size_bytes: int
-    read_at: Any
-    close: Any
-    user: int | None
-    _fields_ = [
-        ("size_bytes", c.c_uint64),
-        ("read_at", c.CFUNCTYPE(c.c_int64, c.c_void_p, c.c_uint64, c.c_void_p, c.c_size_t)),
-        ("close", c.CFUNCTYPE(None, c.c_void_p)),
-        ("user", c.c_void_p),
-    ]
+    size_bytes: Annotated[int, c.c_uint64]
+    read_at: Annotated[Any, c.CFUNCTYPE(c.c_int64, c.c_void_p, c.c_uint64, c.c_void_p, c.c_size_t)]
+    close: Annotated[Any, c.CFUNCTYPE(None, c.c_void_p)]
+    user: Annotated[Optional[int], c.c_void_p]
 
 
 ewa_file_opener = c.CFUNCTYPE(c.c_bool, c.c_void_p, c.c_char_p, c.POINTER(ewa_file_source))
-
-
 ewa_message_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_int, c.c_char_p)
-
-
 ewa_progress_callback = c.CFUNCTYPE(c.c_bool, c.c_void_p, c.c_char_p, c.c_double)
-
-
 ewa_task = c.CFUNCTYPE(None, c.c_void_p, c.c_uint32, c.c_uint32)
 
 
+@_struct
 class ewa_camera(c.Structure):
-    projection: int
-    width_px: int
-    height_px: int
-    fx_px: float
-    fy_px: float
-    cx_px: float
-    cy_px: float
-    world_to_camera: c.Array[c.c_double]
-    _fields_ = [
-        ("projection", c.c_int),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("fx_px", c.c_double),
-        ("fy_px", c.c_double),
-        ("cx_px", c.c_double),
-        ("cy_px", c.c_double),
-        ("world_to_camera", c.c_double * 16),
-    ]
+    projection: Annotated[int, c.c_int]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
+    fx_px: Annotated[float, c.c_double]
+    fy_px: Annotated[float, c.c_double]
+    cx_px: Annotated[float, c.c_double]
+    cy_px: Annotated[float, c.c_double]
+    world_to_camera: Annotated[c.Array[c.c_double], c.c_double * 16]
 
 
 ewa_camera_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_uint32, c.POINTER(ewa_camera))
-
-
 ewa_line_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p)
 
 
+@_struct
 class ewa_image(c.Structure):
-    context: int | None
-    width_px: int
-    height_px: int
-    channel_count: int
-    pixels: int | None
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("channel_count", c.c_uint32),
-        ("pixels", c.c_void_p),
-    ]
+    context: Annotated[Optional[int], c.c_void_p]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
+    channel_count: Annotated[int, c.c_uint32]
+    pixels: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_mesh_material(c.Structure):
-    base_color: c.Array[c.c_float]
-    texture: int
-    _fields_ = [
-        ("base_color", c.c_float * 4),
-        ("texture", c.c_uint32),
-    ]
+    base_color: Annotated[c.Array[c.c_float], c.c_float * 4]
+    texture: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_mesh(c.Structure):
-    context: int | None
-    vertex_count: int
-    triangle_count: int
-    material_count: int
-    positions: int | None
-    normals: int | None
-    colors: int | None
-    texcoords: int | None
-    triangles: int | None
-    triangle_materials: int | None
-    materials: Any
-    textures: Any
-    attributes: int | None
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("vertex_count", c.c_uint32),
-        ("triangle_count", c.c_uint32),
-        ("material_count", c.c_uint32),
-        ("positions", c.c_void_p),
-        ("normals", c.c_void_p),
-        ("colors", c.c_void_p),
-        ("texcoords", c.c_void_p),
-        ("triangles", c.c_void_p),
-        ("triangle_materials", c.c_void_p),
-        ("materials", c.POINTER(ewa_mesh_material)),
-        ("textures", c.POINTER(ewa_image)),
-        ("attributes", c.c_void_p),
-    ]
+    context: Annotated[Optional[int], c.c_void_p]
+    vertex_count: Annotated[int, c.c_uint32]
+    triangle_count: Annotated[int, c.c_uint32]
+    material_count: Annotated[int, c.c_uint32]
+    positions: Annotated[Optional[int], c.c_void_p]
+    normals: Annotated[Optional[int], c.c_void_p]
+    colors: Annotated[Optional[int], c.c_void_p]
+    texcoords: Annotated[Optional[int], c.c_void_p]
+    triangles: Annotated[Optional[int], c.c_void_p]
+    triangle_materials: Annotated[Optional[int], c.c_void_p]
+    materials: Annotated[Any, c.POINTER(ewa_mesh_material)]
+    textures: Annotated[Any, c.POINTER(ewa_image)]
+    attributes: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_model(c.Structure):
-    format: int
-    lost_count: int
-    face_count: int
+    format: Annotated[int, c.c_int]
+    lost_count: Annotated[int, c.c_uint64]
+    face_count: Annotated[int, c.c_uint64]
     mesh: ewa_mesh
-    points: int | None
-    elements: int | None
-    _fields_ = [
-        ("format", c.c_int),
-        ("lost_count", c.c_uint64),
-        ("face_count", c.c_uint64),
-        ("mesh", ewa_mesh),
-        ("points", c.c_void_p),
-        ("elements", c.c_void_p),
-    ]
+    points: Annotated[Optional[int], c.c_void_p]
+    elements: Annotated[Optional[int], c.c_void_p]
 
 
 ewa_asset_reader = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_void_p, c.c_char_p, c.POINTER(ewa_model), c.c_void_p)
 
 
+@_struct
 class ewa_allocator(c.Structure):
-    user: int | None
-    allocate: Any
-    release: Any
-    _fields_ = [
-        ("user", c.c_void_p),
-        ("allocate", c.CFUNCTYPE(c.c_void_p, c.c_void_p, c.c_size_t)),
-        ("release", c.CFUNCTYPE(None, c.c_void_p, c.c_void_p, c.c_size_t)),
-    ]
+    user: Annotated[Optional[int], c.c_void_p]
+    allocate: Annotated[Any, c.CFUNCTYPE(c.c_void_p, c.c_void_p, c.c_size_t)]
+    release: Annotated[Any, c.CFUNCTYPE(None, c.c_void_p, c.c_void_p, c.c_size_t)]
 
 
+@_struct
 class ewa_bounds(c.Structure):
-    low_world: c.Array[c.c_double]
-    high_world: c.Array[c.c_double]
-    finite_count: int
-    _fields_ = [
-        ("low_world", c.c_double * 3),
-        ("high_world", c.c_double * 3),
-        ("finite_count", c.c_uint64),
-    ]
+    low_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    high_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    finite_count: Annotated[int, c.c_uint64]
 
 
+@_struct
 class ewa_executor(c.Structure):
-    user: int | None
-    worker_count: int
-    run: Any
-    _fields_ = [
-        ("user", c.c_void_p),
-        ("worker_count", c.c_uint32),
-        ("run", c.CFUNCTYPE(None, c.c_void_p, ewa_task, c.c_void_p, c.c_uint32)),
-    ]
+    user: Annotated[Optional[int], c.c_void_p]
+    worker_count: Annotated[int, c.c_uint32]
+    run: Annotated[Any, c.CFUNCTYPE(None, c.c_void_p, ewa_task, c.c_void_p, c.c_uint32)]
 
 
+@_struct
 class ewa_limits(c.Structure):
-    max_points: int
-    max_memory_bytes: int
-    max_image_side: int
-    max_seconds: float
-    _fields_ = [
-        ("max_points", c.c_uint64),
-        ("max_memory_bytes", c.c_uint64),
-        ("max_image_side", c.c_uint32),
-        ("max_seconds", c.c_double),
-    ]
+    max_points: Annotated[int, c.c_uint64]
+    max_memory_bytes: Annotated[int, c.c_uint64]
+    max_image_side: Annotated[int, c.c_uint32]
+    max_seconds: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_context_options(c.Structure):
-    struct_size: int
+    struct_size: Annotated[int, c.c_size_t]
     allocator: ewa_allocator
     executor: ewa_executor
-    thread_count: int
-    cpu_mask: int
-    message_level: int
-    message: Any
-    message_user: int | None
-    progress: Any
-    progress_user: int | None
+    thread_count: Annotated[int, c.c_uint32]
+    cpu_mask: Annotated[int, c.c_uint32]
+    message_level: Annotated[int, c.c_int]
+    message: Annotated[Any, ewa_message_callback]
+    message_user: Annotated[Optional[int], c.c_void_p]
+    progress: Annotated[Any, ewa_progress_callback]
+    progress_user: Annotated[Optional[int], c.c_void_p]
     limits: ewa_limits
-    named_files: int
-    untrusted: bool
-    open_file: Any
-    open_file_user: int | None
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("allocator", ewa_allocator),
-        ("executor", ewa_executor),
-        ("thread_count", c.c_uint32),
-        ("cpu_mask", c.c_uint32),
-        ("message_level", c.c_int),
-        ("message", ewa_message_callback),
-        ("message_user", c.c_void_p),
-        ("progress", ewa_progress_callback),
-        ("progress_user", c.c_void_p),
-        ("limits", ewa_limits),
-        ("named_files", c.c_int),
-        ("untrusted", c.c_bool),
-        ("open_file", ewa_file_opener),
-        ("open_file_user", c.c_void_p),
-    ]
+    named_files: Annotated[int, c.c_int]
+    untrusted: Annotated[bool, c.c_bool]
+    open_file: Annotated[Any, ewa_file_opener]
+    open_file_user: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_acquire_options(c.Structure):
-    struct_size: int
-    filter: int
-    fit: int
-    wrap_s: int
-    wrap_t: int
-    pixel_sigma_px: float
-    cutoff: float
-    ridge: float
-    modulate: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("filter", c.c_int),
-        ("fit", c.c_int),
-        ("wrap_s", c.c_int),
-        ("wrap_t", c.c_int),
-        ("pixel_sigma_px", c.c_double),
-        ("cutoff", c.c_double),
-        ("ridge", c.c_double),
-        ("modulate", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    filter: Annotated[int, c.c_int]
+    fit: Annotated[int, c.c_int]
+    wrap_s: Annotated[int, c.c_int]
+    wrap_t: Annotated[int, c.c_int]
+    pixel_sigma_px: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    ridge: Annotated[float, c.c_double]
+    modulate: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_acquire_report(c.Structure):
-    textured_count: int
-    pair_count: int
-    iterations: int
-    gradient: float
-    ridge: float
-    _fields_ = [
-        ("textured_count", c.c_uint64),
-        ("pair_count", c.c_uint64),
-        ("iterations", c.c_uint32),
-        ("gradient", c.c_double),
-        ("ridge", c.c_double),
-    ]
+    textured_count: Annotated[int, c.c_uint64]
+    pair_count: Annotated[int, c.c_uint64]
+    iterations: Annotated[int, c.c_uint32]
+    gradient: Annotated[float, c.c_double]
+    ridge: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_camera_cotangent(c.Structure):
-    rotation: c.Array[c.c_double]
-    translation: c.Array[c.c_double]
-    focal_px: c.Array[c.c_double]
-    principal_px: c.Array[c.c_double]
-    _fields_ = [
-        ("rotation", c.c_double * 3),
-        ("translation", c.c_double * 3),
-        ("focal_px", c.c_double * 2),
-        ("principal_px", c.c_double * 2),
-    ]
+    rotation: Annotated[c.Array[c.c_double], c.c_double * 3]
+    translation: Annotated[c.Array[c.c_double], c.c_double * 3]
+    focal_px: Annotated[c.Array[c.c_double], c.c_double * 2]
+    principal_px: Annotated[c.Array[c.c_double], c.c_double * 2]
 
 
+@_struct
 class ewa_frame_cotangent(c.Structure):
-    rgba: int | None
-    depth: int | None
-    normal: int | None
-    coverage: int | None
-    _fields_ = [
-        ("rgba", c.c_void_p),
-        ("depth", c.c_void_p),
-        ("normal", c.c_void_p),
-        ("coverage", c.c_void_p),
-    ]
+    rgba: Annotated[Optional[int], c.c_void_p]
+    depth: Annotated[Optional[int], c.c_void_p]
+    normal: Annotated[Optional[int], c.c_void_p]
+    coverage: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_gradient(c.Structure):
-    color: int | None
-    opacity: int | None
-    position: int | None
-    normal: int | None
-    radius: int | None
-    tangent_u: int | None
-    tangent_v: int | None
-    camera: Any
-    rgba: int | None
-    _fields_ = [
-        ("color", c.c_void_p),
-        ("opacity", c.c_void_p),
-        ("position", c.c_void_p),
-        ("normal", c.c_void_p),
-        ("radius", c.c_void_p),
-        ("tangent_u", c.c_void_p),
-        ("tangent_v", c.c_void_p),
-        ("camera", c.POINTER(ewa_camera_cotangent)),
-        ("rgba", c.c_void_p),
-    ]
+    color: Annotated[Optional[int], c.c_void_p]
+    opacity: Annotated[Optional[int], c.c_void_p]
+    position: Annotated[Optional[int], c.c_void_p]
+    normal: Annotated[Optional[int], c.c_void_p]
+    radius: Annotated[Optional[int], c.c_void_p]
+    tangent_u: Annotated[Optional[int], c.c_void_p]
+    tangent_v: Annotated[Optional[int], c.c_void_p]
+    camera: Annotated[Any, c.POINTER(ewa_camera_cotangent)]
+    rgba: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_attribute(c.Structure):
-    name: bytes
-    type: int
-    component_count: int
-    stride_bytes: int
-    data: int | None
-    borrowed: bool
-    _fields_ = [
-        ("name", c.c_char * 64),
-        ("type", c.c_int),
-        ("component_count", c.c_uint32),
-        ("stride_bytes", c.c_size_t),
-        ("data", c.c_void_p),
-        ("borrowed", c.c_bool),
-    ]
+    name: Annotated[bytes, c.c_char * 64]
+    type: Annotated[int, c.c_int]
+    component_count: Annotated[int, c.c_uint32]
+    stride_bytes: Annotated[int, c.c_size_t]
+    data: Annotated[Optional[int], c.c_void_p]
+    borrowed: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_coordinate_grid(c.Structure):
-    step_world: c.Array[c.c_double]
-    offset_world: c.Array[c.c_double]
-    _fields_ = [
-        ("step_world", c.c_double * 3),
-        ("offset_world", c.c_double * 3),
-    ]
+    step_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    offset_world: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_parcel(c.Structure):
-    data: int | None
-    size_bytes: int
-    _fields_ = [
-        ("data", c.c_void_p),
-        ("size_bytes", c.c_size_t),
-    ]
+    data: Annotated[Optional[int], c.c_void_p]
+    size_bytes: Annotated[int, c.c_size_t]
 
 
+@_struct
 class ewa_exchange(c.Structure):
-    user: int | None
-    rank: int
-    rank_count: int
-    picture_rank: int
-    swap: Any
-    _fields_ = [
-        ("user", c.c_void_p),
-        ("rank", c.c_uint32),
-        ("rank_count", c.c_uint32),
-        ("picture_rank", c.c_uint32),
-        ("swap", c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(ewa_parcel), c.POINTER(ewa_parcel))),
-    ]
+    user: Annotated[Optional[int], c.c_void_p]
+    rank: Annotated[int, c.c_uint32]
+    rank_count: Annotated[int, c.c_uint32]
+    picture_rank: Annotated[int, c.c_uint32]
+    swap: Annotated[Any, c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(ewa_parcel), c.POINTER(ewa_parcel))]
 
 
+@_struct
 class ewa_coloring(c.Structure):
-    struct_size: int
-    attribute: bytes
-    map: int
-    ranged: bool
-    percent: c.Array[c.c_bool]
-    range: c.Array[c.c_double]
-    tinted: bool
-    tint: c.Array[c.c_double]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("attribute", c.c_char * 68),
-        ("map", c.c_int),
-        ("ranged", c.c_bool),
-        ("percent", c.c_bool * 2),
-        ("range", c.c_double * 2),
-        ("tinted", c.c_bool),
-        ("tint", c.c_double * 3),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    attribute: Annotated[bytes, c.c_char * 68]
+    map: Annotated[int, c.c_int]
+    ranged: Annotated[bool, c.c_bool]
+    percent: Annotated[c.Array[c.c_bool], c.c_bool * 2]
+    range: Annotated[c.Array[c.c_double], c.c_double * 2]
+    tinted: Annotated[bool, c.c_bool]
+    tint: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_category(c.Structure):
-    value: float
-    name: bytes | None
-    srgb: c.Array[c.c_uint8]
-    _fields_ = [
-        ("value", c.c_double),
-        ("name", c.c_char_p),
-        ("srgb", c.c_uint8 * 3),
-    ]
+    value: Annotated[float, c.c_double]
+    name: Annotated[Optional[bytes], c.c_char_p]
+    srgb: Annotated[c.Array[c.c_uint8], c.c_uint8 * 3]
 
 
+@_struct
 class ewa_legend(c.Structure):
-    context: int | None
-    colormap: int
-    range: c.Array[c.c_double]
-    length: bool
-    classes: bool
-    category_count: int
-    categories: Any
-    names: bytes | None
-    grey_count: int
-    attribute: bytes
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("colormap", c.c_int),
-        ("range", c.c_double * 2),
-        ("length", c.c_bool),
-        ("classes", c.c_bool),
-        ("category_count", c.c_uint32),
-        ("categories", c.POINTER(ewa_category)),
-        ("names", c.c_char_p),
-        ("grey_count", c.c_uint64),
-        ("attribute", c.c_char * 68),
-    ]
+    context: Annotated[Optional[int], c.c_void_p]
+    colormap: Annotated[int, c.c_int]
+    range: Annotated[c.Array[c.c_double], c.c_double * 2]
+    length: Annotated[bool, c.c_bool]
+    classes: Annotated[bool, c.c_bool]
+    category_count: Annotated[int, c.c_uint32]
+    categories: Annotated[Any, c.POINTER(ewa_category)]
+    names: Annotated[Optional[bytes], c.c_char_p]
+    grey_count: Annotated[int, c.c_uint64]
+    attribute: Annotated[bytes, c.c_char * 68]
 
 
+@_struct
 class ewa_cloud_invalid_points(c.Structure):
-    position_count: int
-    normal_count: int
-    radius_count: int
-    axis_count: int
-    color_count: int
-    _fields_ = [
-        ("position_count", c.c_uint64),
-        ("normal_count", c.c_uint64),
-        ("radius_count", c.c_uint64),
-        ("axis_count", c.c_uint64),
-        ("color_count", c.c_uint64),
-    ]
+    position_count: Annotated[int, c.c_uint64]
+    normal_count: Annotated[int, c.c_uint64]
+    radius_count: Annotated[int, c.c_uint64]
+    axis_count: Annotated[int, c.c_uint64]
+    color_count: Annotated[int, c.c_uint64]
 
 
+@_struct
 class ewa_gaussian_columns(c.Structure):
-    dimensions: int
-    sh_degree: int
-    filtered: bool
-    _fields_ = [
-        ("dimensions", c.c_uint32),
-        ("sh_degree", c.c_uint32),
-        ("filtered", c.c_bool),
-    ]
+    dimensions: Annotated[int, c.c_uint32]
+    sh_degree: Annotated[int, c.c_uint32]
+    filtered: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_framing_info(c.Structure):
     box: ewa_bounds
-    middle_world: c.Array[c.c_double]
-    sample_count: int
-    trimmed: bool
-    _fields_ = [
-        ("box", ewa_bounds),
-        ("middle_world", c.c_double * 3),
-        ("sample_count", c.c_uint64),
-        ("trimmed", c.c_bool),
-    ]
+    middle_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    sample_count: Annotated[int, c.c_uint64]
+    trimmed: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_upright(c.Structure):
-    axis: int
-    reversed: bool
-    view: int
-    from_origin: bool
-    why: bytes | None
-    _fields_ = [
-        ("axis", c.c_int),
-        ("reversed", c.c_bool),
-        ("view", c.c_int),
-        ("from_origin", c.c_bool),
-        ("why", c.c_char_p),
-    ]
+    axis: Annotated[int, c.c_int]
+    reversed: Annotated[bool, c.c_bool]
+    view: Annotated[int, c.c_int]
+    from_origin: Annotated[bool, c.c_bool]
+    why: Annotated[Optional[bytes], c.c_char_p]
 
 
+@_struct
 class ewa_canvas(c.Structure):
-    rgba8: int | None
-    width_px: int
-    height_px: int
-    _fields_ = [
-        ("rgba8", c.c_void_p),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-    ]
+    rgba8: Annotated[Optional[int], c.c_void_p]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_furniture_options(c.Structure):
-    struct_size: int
-    title: bytes | None
-    axes: bool
-    scale_bar: bool
-    color_bar: bool
-    scale_depth_world: float
-    unit: bytes | None
-    colormap: int
-    range: c.Array[c.c_double]
-    color_label: bytes | None
-    color_unit: bytes | None
-    categories: Any
-    category_count: int
-    pixel_scale: float
-    ink: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("title", c.c_char_p),
-        ("axes", c.c_bool),
-        ("scale_bar", c.c_bool),
-        ("color_bar", c.c_bool),
-        ("scale_depth_world", c.c_double),
-        ("unit", c.c_char_p),
-        ("colormap", c.c_int),
-        ("range", c.c_double * 2),
-        ("color_label", c.c_char_p),
-        ("color_unit", c.c_char_p),
-        ("categories", c.POINTER(ewa_category)),
-        ("category_count", c.c_uint32),
-        ("pixel_scale", c.c_double),
-        ("ink", c.c_int),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    title: Annotated[Optional[bytes], c.c_char_p]
+    axes: Annotated[bool, c.c_bool]
+    scale_bar: Annotated[bool, c.c_bool]
+    color_bar: Annotated[bool, c.c_bool]
+    scale_depth_world: Annotated[float, c.c_double]
+    unit: Annotated[Optional[bytes], c.c_char_p]
+    colormap: Annotated[int, c.c_int]
+    range: Annotated[c.Array[c.c_double], c.c_double * 2]
+    color_label: Annotated[Optional[bytes], c.c_char_p]
+    color_unit: Annotated[Optional[bytes], c.c_char_p]
+    categories: Annotated[Any, c.POINTER(ewa_category)]
+    category_count: Annotated[int, c.c_uint32]
+    pixel_scale: Annotated[float, c.c_double]
+    ink: Annotated[int, c.c_int]
 
 
+@_struct
 class ewa_text_style(c.Structure):
-    height_px: float
-    rgba: c.Array[c.c_uint8]
-    halo_px: float
-    halo_rgba: c.Array[c.c_uint8]
-    anchor: int
-    _fields_ = [
-        ("height_px", c.c_double),
-        ("rgba", c.c_uint8 * 4),
-        ("halo_px", c.c_double),
-        ("halo_rgba", c.c_uint8 * 4),
-        ("anchor", c.c_int),
-    ]
+    height_px: Annotated[float, c.c_double]
+    rgba: Annotated[c.Array[c.c_uint8], c.c_uint8 * 4]
+    halo_px: Annotated[float, c.c_double]
+    halo_rgba: Annotated[c.Array[c.c_uint8], c.c_uint8 * 4]
+    anchor: Annotated[int, c.c_int]
 
 
+@_struct
 class ewa_gaussians(c.Structure):
-    context: int | None
-    count: int
-    sh_degree: int
-    flat: bool
-    antialiased: bool
-    origin: c.Array[c.c_double]
-    centers: int | None
-    scales: int | None
-    rotations: int | None
-    opacities: int | None
-    harmonics: int | None
-    classes: int | None
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("count", c.c_uint32),
-        ("sh_degree", c.c_uint32),
-        ("flat", c.c_bool),
-        ("antialiased", c.c_bool),
-        ("origin", c.c_double * 3),
-        ("centers", c.c_void_p),
-        ("scales", c.c_void_p),
-        ("rotations", c.c_void_p),
-        ("opacities", c.c_void_p),
-        ("harmonics", c.c_void_p),
-        ("classes", c.c_void_p),
-    ]
+    context: Annotated[Optional[int], c.c_void_p]
+    count: Annotated[int, c.c_uint32]
+    sh_degree: Annotated[int, c.c_uint32]
+    flat: Annotated[bool, c.c_bool]
+    antialiased: Annotated[bool, c.c_bool]
+    origin: Annotated[c.Array[c.c_double], c.c_double * 3]
+    centers: Annotated[Optional[int], c.c_void_p]
+    scales: Annotated[Optional[int], c.c_void_p]
+    rotations: Annotated[Optional[int], c.c_void_p]
+    opacities: Annotated[Optional[int], c.c_void_p]
+    harmonics: Annotated[Optional[int], c.c_void_p]
+    classes: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_gaussian_facts(c.Structure):
-    format: int
-    version: int
-    filtered: bool
-    up_world: c.Array[c.c_double]
-    size_bytes: int
-    _fields_ = [
-        ("format", c.c_int),
-        ("version", c.c_uint32),
-        ("filtered", c.c_bool),
-        ("up_world", c.c_double * 3),
-        ("size_bytes", c.c_uint64),
-    ]
+    format: Annotated[int, c.c_int]
+    version: Annotated[int, c.c_uint32]
+    filtered: Annotated[bool, c.c_bool]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    size_bytes: Annotated[int, c.c_uint64]
 
 
+@_struct
 class ewa_gaussians_save_options(c.Structure):
-    struct_size: int
-    sh_degree: int
-    spz_version: int
-    up_world: c.Array[c.c_double]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("sh_degree", c.c_uint32),
-        ("spz_version", c.c_uint32),
-        ("up_world", c.c_double * 3),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    sh_degree: Annotated[int, c.c_uint32]
+    spz_version: Annotated[int, c.c_uint32]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_gaussian_options(c.Structure):
-    struct_size: int
-    projection: int
-    filter: int
-    prefilter_px2: float
-    cutoff: float
-    minimum_alpha: float
-    minimum_transmittance: float
-    near_world: float
-    sh_degree: int
-    background: c.Array[c.c_float]
-    surface_depth: int | None
-    surface_rgba: int | None
-    section_planes: c.Array[Any]
-    section_count: int
-    surface_normal: int | None
-    surface_coverage: int | None
-    order: int
-    merge_px: float
-    display: int
-    ellipsoid_radius: float
-    dot_px: float
-    depth: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("projection", c.c_int),
-        ("filter", c.c_int),
-        ("prefilter_px2", c.c_double),
-        ("cutoff", c.c_double),
-        ("minimum_alpha", c.c_double),
-        ("minimum_transmittance", c.c_double),
-        ("near_world", c.c_double),
-        ("sh_degree", c.c_uint32),
-        ("background", c.c_float * 4),
-        ("surface_depth", c.c_void_p),
-        ("surface_rgba", c.c_void_p),
-        ("section_planes", (c.c_double * 4) * 8),
-        ("section_count", c.c_uint32),
-        ("surface_normal", c.c_void_p),
-        ("surface_coverage", c.c_void_p),
-        ("order", c.c_int),
-        ("merge_px", c.c_double),
-        ("display", c.c_int),
-        ("ellipsoid_radius", c.c_double),
-        ("dot_px", c.c_double),
-        ("depth", c.c_int),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    projection: Annotated[int, c.c_int]
+    filter: Annotated[int, c.c_int]
+    prefilter_px2: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    minimum_alpha: Annotated[float, c.c_double]
+    minimum_transmittance: Annotated[float, c.c_double]
+    near_world: Annotated[float, c.c_double]
+    sh_degree: Annotated[int, c.c_uint32]
+    background: Annotated[c.Array[c.c_float], c.c_float * 4]
+    surface_depth: Annotated[Optional[int], c.c_void_p]
+    surface_rgba: Annotated[Optional[int], c.c_void_p]
+    section_planes: Annotated[c.Array[Any], (c.c_double * 4) * 8]
+    section_count: Annotated[int, c.c_uint32]
+    surface_normal: Annotated[Optional[int], c.c_void_p]
+    surface_coverage: Annotated[Optional[int], c.c_void_p]
+    order: Annotated[int, c.c_int]
+    merge_px: Annotated[float, c.c_double]
+    display: Annotated[int, c.c_int]
+    ellipsoid_radius: Annotated[float, c.c_double]
+    dot_px: Annotated[float, c.c_double]
+    depth: Annotated[int, c.c_int]
 
 
+@_struct
 class ewa_gaussian_stats(c.Structure):
-    splat_count: int
-    visible_count: int
-    near_count: int
-    tile_count: int
-    block_count: int
-    sorted_count: int
-    project_s: float
-    bin_s: float
-    draw_s: float
-    total_s: float
-    _fields_ = [
-        ("splat_count", c.c_uint64),
-        ("visible_count", c.c_uint64),
-        ("near_count", c.c_uint64),
-        ("tile_count", c.c_uint64),
-        ("block_count", c.c_uint64),
-        ("sorted_count", c.c_uint64),
-        ("project_s", c.c_double),
-        ("bin_s", c.c_double),
-        ("draw_s", c.c_double),
-        ("total_s", c.c_double),
-    ]
+    splat_count: Annotated[int, c.c_uint64]
+    visible_count: Annotated[int, c.c_uint64]
+    near_count: Annotated[int, c.c_uint64]
+    tile_count: Annotated[int, c.c_uint64]
+    block_count: Annotated[int, c.c_uint64]
+    sorted_count: Annotated[int, c.c_uint64]
+    project_s: Annotated[float, c.c_double]
+    bin_s: Annotated[float, c.c_double]
+    draw_s: Annotated[float, c.c_double]
+    total_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_splats_info(c.Structure):
-    splat_count: int
-    sh_degree: int
-    antialiased: bool
-    has_levels: bool
-    has_classes: bool
-    resident_bytes: int
+    splat_count: Annotated[int, c.c_uint32]
+    sh_degree: Annotated[int, c.c_uint32]
+    antialiased: Annotated[bool, c.c_bool]
+    has_levels: Annotated[bool, c.c_bool]
+    has_classes: Annotated[bool, c.c_bool]
+    resident_bytes: Annotated[int, c.c_size_t]
     bounds: ewa_bounds
     core: ewa_bounds
-    near_world: float
-    _fields_ = [
-        ("splat_count", c.c_uint32),
-        ("sh_degree", c.c_uint32),
-        ("antialiased", c.c_bool),
-        ("has_levels", c.c_bool),
-        ("has_classes", c.c_bool),
-        ("resident_bytes", c.c_size_t),
-        ("bounds", ewa_bounds),
-        ("core", ewa_bounds),
-        ("near_world", c.c_double),
-    ]
+    near_world: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_gpu_info(c.Structure):
-    struct_size: int
-    vendor: bytes
-    renderer: bytes
-    version: bytes
-    software: bool
-    device_class: int
-    differs: bytes
-    native_fma: bool
-    native_division: bool
-    native_root: bool
-    storage_bytes: int
-    storage_count: int
-    group_threads: int
-    texture_px: int
-    devices: bytes
-    subnormals: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("vendor", c.c_char * 128),
-        ("renderer", c.c_char * 128),
-        ("version", c.c_char * 128),
-        ("software", c.c_bool),
-        ("device_class", c.c_int),
-        ("differs", c.c_char * 64),
-        ("native_fma", c.c_bool),
-        ("native_division", c.c_bool),
-        ("native_root", c.c_bool),
-        ("storage_bytes", c.c_uint64),
-        ("storage_count", c.c_uint32),
-        ("group_threads", c.c_uint32),
-        ("texture_px", c.c_uint32),
-        ("devices", c.c_char * 1024),
-        ("subnormals", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    vendor: Annotated[bytes, c.c_char * 128]
+    renderer: Annotated[bytes, c.c_char * 128]
+    version: Annotated[bytes, c.c_char * 128]
+    software: Annotated[bool, c.c_bool]
+    device_class: Annotated[int, c.c_int]
+    differs: Annotated[bytes, c.c_char * 64]
+    native_fma: Annotated[bool, c.c_bool]
+    native_division: Annotated[bool, c.c_bool]
+    native_root: Annotated[bool, c.c_bool]
+    storage_bytes: Annotated[int, c.c_uint64]
+    storage_count: Annotated[int, c.c_uint32]
+    group_threads: Annotated[int, c.c_uint32]
+    texture_px: Annotated[int, c.c_uint32]
+    devices: Annotated[bytes, c.c_char * 1024]
+    subnormals: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_renderer_info(c.Structure):
-    struct_size: int
-    backend: bytes
-    device: bytes
-    device_class: int
-    remark: bytes
-    wait_count: int
-    readback_count: int
-    dispatch_count: int
-    upload_bytes: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("backend", c.c_char * 16),
-        ("device", c.c_char * 128),
-        ("device_class", c.c_int),
-        ("remark", c.c_char * 160),
-        ("wait_count", c.c_uint32),
-        ("readback_count", c.c_uint32),
-        ("dispatch_count", c.c_uint32),
-        ("upload_bytes", c.c_uint64),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    backend: Annotated[bytes, c.c_char * 16]
+    device: Annotated[bytes, c.c_char * 128]
+    device_class: Annotated[int, c.c_int]
+    remark: Annotated[bytes, c.c_char * 160]
+    wait_count: Annotated[int, c.c_uint32]
+    readback_count: Annotated[int, c.c_uint32]
+    dispatch_count: Annotated[int, c.c_uint32]
+    upload_bytes: Annotated[int, c.c_uint64]
 
 
+@_struct
 class ewa_conic(c.Structure):
-    xx: float
-    xy: float
-    xw: float
-    yy: float
-    yw: float
-    ww: float
-    _fields_ = [
-        ("xx", c.c_double),
-        ("xy", c.c_double),
-        ("xw", c.c_double),
-        ("yy", c.c_double),
-        ("yw", c.c_double),
-        ("ww", c.c_double),
-    ]
+    xx: Annotated[float, c.c_double]
+    xy: Annotated[float, c.c_double]
+    xw: Annotated[float, c.c_double]
+    yy: Annotated[float, c.c_double]
+    yw: Annotated[float, c.c_double]
+    ww: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_vec3(c.Structure):
-    x: float
-    y: float
-    z: float
-    _fields_ = [
-        ("x", c.c_double),
-        ("y", c.c_double),
-        ("z", c.c_double),
-    ]
+    x: Annotated[float, c.c_double]
+    y: Annotated[float, c.c_double]
+    z: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_line3(c.Structure):
     direction: ewa_vec3
     moment: ewa_vec3
-    _fields_ = [
-        ("direction", ewa_vec3),
-        ("moment", ewa_vec3),
-    ]
 
 
+@_struct
 class ewa_mat3(c.Structure):
-    m: c.Array[Any]
-    _fields_ = [
-        ("m", (c.c_double * 3) * 3),
-    ]
+    m: Annotated[c.Array[Any], (c.c_double * 3) * 3]
 
 
+@_struct
 class ewa_mat4(c.Structure):
-    m: c.Array[Any]
-    _fields_ = [
-        ("m", (c.c_double * 4) * 4),
-    ]
+    m: Annotated[c.Array[Any], (c.c_double * 4) * 4]
 
 
+@_struct
 class ewa_segment_batch(c.Structure):
-    count: int
-    end: c.Array[Any]
-    _fields_ = [
-        ("count", c.c_uint64),
-        ("end", (c.c_void_p * 4) * 2),
-    ]
+    count: Annotated[int, c.c_uint64]
+    end: Annotated[c.Array[Any], (c.c_void_p * 4) * 2]
 
 
+@_struct
 class ewa_segment_clips(c.Structure):
-    visible: int | None
-    alpha: c.Array[Any]
-    end: c.Array[Any]
-    _fields_ = [
-        ("visible", c.c_void_p),
-        ("alpha", (c.c_void_p * 2) * 2),
-        ("end", ((c.c_void_p * 4) * 2) * 2),
-    ]
+    visible: Annotated[Optional[int], c.c_void_p]
+    alpha: Annotated[c.Array[Any], (c.c_void_p * 2) * 2]
+    end: Annotated[c.Array[Any], ((c.c_void_p * 4) * 2) * 2]
 
 
+@_struct
 class ewa_vec4(c.Structure):
-    x: float
-    y: float
-    z: float
-    w: float
-    _fields_ = [
-        ("x", c.c_double),
-        ("y", c.c_double),
-        ("z", c.c_double),
-        ("w", c.c_double),
-    ]
+    x: Annotated[float, c.c_double]
+    y: Annotated[float, c.c_double]
+    z: Annotated[float, c.c_double]
+    w: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_segment_part(c.Structure):
-    alpha: c.Array[c.c_double]
-    end: c.Array[ewa_vec4]
-    _fields_ = [
-        ("alpha", c.c_double * 2),
-        ("end", ewa_vec4 * 2),
-    ]
+    alpha: Annotated[c.Array[c.c_double], c.c_double * 2]
+    end: Annotated[c.Array[ewa_vec4], ewa_vec4 * 2]
 
 
+@_struct
 class ewa_cloud_load_options(c.Structure):
-    struct_size: int
-    keep_going: bool
-    attributes: bytes | None
-    columns: bytes | None
-    heights: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("keep_going", c.c_bool),
-        ("attributes", c.c_char_p),
-        ("columns", c.c_char_p),
-        ("heights", c.c_int),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    keep_going: Annotated[bool, c.c_bool]
+    attributes: Annotated[Optional[bytes], c.c_char_p]
+    columns: Annotated[Optional[bytes], c.c_char_p]
+    heights: Annotated[int, c.c_int]
 
 
+@_struct
 class ewa_cloud_save_options(c.Structure):
-    struct_size: int
-    ply_encoding: int
-    elements: int | None
-    step_world: float
-    chunk_points: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("ply_encoding", c.c_int),
-        ("elements", c.c_void_p),
-        ("step_world", c.c_double),
-        ("chunk_points", c.c_uint32),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    ply_encoding: Annotated[int, c.c_int]
+    elements: Annotated[Optional[int], c.c_void_p]
+    step_world: Annotated[float, c.c_double]
+    chunk_points: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_image_save_options(c.Structure):
-    struct_size: int
-    channel_names: bytes | None
-    exr_half: bool
-    world_to_camera: int | None
-    srgb_alpha_straight: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("channel_names", c.c_char_p),
-        ("exr_half", c.c_bool),
-        ("world_to_camera", c.c_void_p),
-        ("srgb_alpha_straight", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    channel_names: Annotated[Optional[bytes], c.c_char_p]
+    exr_half: Annotated[bool, c.c_bool]
+    world_to_camera: Annotated[Optional[int], c.c_void_p]
+    srgb_alpha_straight: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_lens(c.Structure):
-    model: int
-    radial: c.Array[c.c_double]
-    tangential: c.Array[c.c_double]
-    _fields_ = [
-        ("model", c.c_int),
-        ("radial", c.c_double * 6),
-        ("tangential", c.c_double * 2),
-    ]
+    model: Annotated[int, c.c_int]
+    radial: Annotated[c.Array[c.c_double], c.c_double * 6]
+    tangential: Annotated[c.Array[c.c_double], c.c_double * 2]
 
 
+@_struct
 class ewa_photo(c.Structure):
     camera: ewa_camera
     lens: ewa_lens
-    path: bytes | None
-    image: Any
-    mask_path: bytes | None
-    _fields_ = [
-        ("camera", ewa_camera),
-        ("lens", ewa_lens),
-        ("path", c.c_char_p),
-        ("image", c.POINTER(ewa_image)),
-        ("mask_path", c.c_char_p),
-    ]
+    path: Annotated[Optional[bytes], c.c_char_p]
+    image: Annotated[Any, c.POINTER(ewa_image)]
+    mask_path: Annotated[Optional[bytes], c.c_char_p]
 
 
+@_struct
 class ewa_volume_load_options(c.Structure):
-    struct_size: int
-    dims: c.Array[c.c_uint32]
-    type: int
-    big_endian: bool
-    header_bytes: int
-    spacing_world: c.Array[c.c_double]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("dims", c.c_uint32 * 3),
-        ("type", c.c_int),
-        ("big_endian", c.c_bool),
-        ("header_bytes", c.c_uint64),
-        ("spacing_world", c.c_double * 3),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    dims: Annotated[c.Array[c.c_uint32], c.c_uint32 * 3]
+    type: Annotated[int, c.c_int]
+    big_endian: Annotated[bool, c.c_bool]
+    header_bytes: Annotated[int, c.c_uint64]
+    spacing_world: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_volume_save_options(c.Structure):
-    struct_size: int
-    plain: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("plain", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    plain: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_lod_build_options(c.Structure):
-    struct_size: int
-    memory_bytes: int
-    subset: int
-    subset_count: int
-    keep_going: bool
-    attributes: bytes | None
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("memory_bytes", c.c_uint64),
-        ("subset", c.c_uint32),
-        ("subset_count", c.c_uint32),
-        ("keep_going", c.c_bool),
-        ("attributes", c.c_char_p),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    memory_bytes: Annotated[int, c.c_uint64]
+    subset: Annotated[int, c.c_uint32]
+    subset_count: Annotated[int, c.c_uint32]
+    keep_going: Annotated[bool, c.c_bool]
+    attributes: Annotated[Optional[bytes], c.c_char_p]
 
 
+@_struct
 class ewa_lod_build_stats(c.Structure):
-    point_count: int
-    left_out_count: int
-    merged_count: int
-    node_count: int
-    level_count: int
-    temporary_bytes: int
-    statistics_s: float
-    distribute_s: float
-    estimate_s: float
-    merge_s: float
-    write_s: float
-    total_s: float
-    _fields_ = [
-        ("point_count", c.c_uint64),
-        ("left_out_count", c.c_uint64),
-        ("merged_count", c.c_uint64),
-        ("node_count", c.c_uint32),
-        ("level_count", c.c_uint32),
-        ("temporary_bytes", c.c_uint64),
-        ("statistics_s", c.c_double),
-        ("distribute_s", c.c_double),
-        ("estimate_s", c.c_double),
-        ("merge_s", c.c_double),
-        ("write_s", c.c_double),
-        ("total_s", c.c_double),
-    ]
+    point_count: Annotated[int, c.c_uint64]
+    left_out_count: Annotated[int, c.c_uint64]
+    merged_count: Annotated[int, c.c_uint64]
+    node_count: Annotated[int, c.c_uint32]
+    level_count: Annotated[int, c.c_uint32]
+    temporary_bytes: Annotated[int, c.c_uint64]
+    statistics_s: Annotated[float, c.c_double]
+    distribute_s: Annotated[float, c.c_double]
+    estimate_s: Annotated[float, c.c_double]
+    merge_s: Annotated[float, c.c_double]
+    write_s: Annotated[float, c.c_double]
+    total_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_lod_info(c.Structure):
-    kind: bytes | None
-    point_count: int
+    kind: Annotated[Optional[bytes], c.c_char_p]
+    point_count: Annotated[int, c.c_uint64]
     bounds: ewa_bounds
-    low_world: c.Array[c.c_double]
-    side_world: float
-    spacing_world: float
-    node_count: int
-    level_count: int
-    merged: bool
-    merged_count: int
-    surfels: bool
-    prototype: int | None
-    represented: int | None
-    _fields_ = [
-        ("kind", c.c_char_p),
-        ("point_count", c.c_uint64),
-        ("bounds", ewa_bounds),
-        ("low_world", c.c_double * 3),
-        ("side_world", c.c_double),
-        ("spacing_world", c.c_double),
-        ("node_count", c.c_uint32),
-        ("level_count", c.c_uint32),
-        ("merged", c.c_bool),
-        ("merged_count", c.c_uint64),
-        ("surfels", c.c_bool),
-        ("prototype", c.c_void_p),
-        ("represented", c.c_void_p),
-    ]
+    low_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    side_world: Annotated[float, c.c_double]
+    spacing_world: Annotated[float, c.c_double]
+    node_count: Annotated[int, c.c_uint32]
+    level_count: Annotated[int, c.c_uint32]
+    merged: Annotated[bool, c.c_bool]
+    merged_count: Annotated[int, c.c_uint64]
+    surfels: Annotated[bool, c.c_bool]
+    prototype: Annotated[Optional[int], c.c_void_p]
+    represented: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_lod_options(c.Structure):
-    struct_size: int
-    spacing_px: float
-    error: float
-    memory_bytes: int
-    load_s: float
-    share: int
-    share_count: int
-    max_splats: int
-    resident_only: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("spacing_px", c.c_double),
-        ("error", c.c_double),
-        ("memory_bytes", c.c_uint64),
-        ("load_s", c.c_double),
-        ("share", c.c_uint32),
-        ("share_count", c.c_uint32),
-        ("max_splats", c.c_uint64),
-        ("resident_only", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    spacing_px: Annotated[float, c.c_double]
+    error: Annotated[float, c.c_double]
+    memory_bytes: Annotated[int, c.c_uint64]
+    load_s: Annotated[float, c.c_double]
+    share: Annotated[int, c.c_uint32]
+    share_count: Annotated[int, c.c_uint32]
+    max_splats: Annotated[int, c.c_uint64]
+    resident_only: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_lod_scene(c.Structure):
-    lods: int | None
-    lod_count: int
-    surfels_count: int
-    surfels: int | None
-    _fields_ = [
-        ("lods", c.c_void_p),
-        ("lod_count", c.c_uint32),
-        ("surfels_count", c.c_uint32),
-        ("surfels", c.c_void_p),
-    ]
+    lods: Annotated[Optional[int], c.c_void_p]
+    lod_count: Annotated[int, c.c_uint32]
+    surfels_count: Annotated[int, c.c_uint32]
+    surfels: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_render_stats(c.Structure):
-    splat_count: int
-    culled_count: int
-    hidden_count: int
-    drawn_count: int
-    fragment_count: int
-    bin_s: float
-    setup_s: float
-    visibility_s: float
-    accumulate_s: float
-    edge_s: float
-    resolve_s: float
-    total_s: float
-    level: int
-    _fields_ = [
-        ("splat_count", c.c_uint64),
-        ("culled_count", c.c_uint64),
-        ("hidden_count", c.c_uint64),
-        ("drawn_count", c.c_uint64),
-        ("fragment_count", c.c_uint64),
-        ("bin_s", c.c_double),
-        ("setup_s", c.c_double),
-        ("visibility_s", c.c_double),
-        ("accumulate_s", c.c_double),
-        ("edge_s", c.c_double),
-        ("resolve_s", c.c_double),
-        ("total_s", c.c_double),
-        ("level", c.c_uint32),
-    ]
+    splat_count: Annotated[int, c.c_uint64]
+    culled_count: Annotated[int, c.c_uint64]
+    hidden_count: Annotated[int, c.c_uint64]
+    drawn_count: Annotated[int, c.c_uint64]
+    fragment_count: Annotated[int, c.c_uint64]
+    bin_s: Annotated[float, c.c_double]
+    setup_s: Annotated[float, c.c_double]
+    visibility_s: Annotated[float, c.c_double]
+    accumulate_s: Annotated[float, c.c_double]
+    edge_s: Annotated[float, c.c_double]
+    resolve_s: Annotated[float, c.c_double]
+    total_s: Annotated[float, c.c_double]
+    level: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_lod_stats(c.Structure):
     render: ewa_render_stats
-    surfel_count: int
-    node_count: int
-    loaded_count: int
-    missing_count: int
-    band_count: int
-    resident_bytes: int
-    choose_s: float
-    load_s: float
-    coarser: float
-    _fields_ = [
-        ("render", ewa_render_stats),
-        ("surfel_count", c.c_uint64),
-        ("node_count", c.c_uint32),
-        ("loaded_count", c.c_uint32),
-        ("missing_count", c.c_uint32),
-        ("band_count", c.c_uint32),
-        ("resident_bytes", c.c_uint64),
-        ("choose_s", c.c_double),
-        ("load_s", c.c_double),
-        ("coarser", c.c_double),
-    ]
+    surfel_count: Annotated[int, c.c_uint64]
+    node_count: Annotated[int, c.c_uint32]
+    loaded_count: Annotated[int, c.c_uint32]
+    missing_count: Annotated[int, c.c_uint32]
+    band_count: Annotated[int, c.c_uint32]
+    resident_bytes: Annotated[int, c.c_uint64]
+    choose_s: Annotated[float, c.c_double]
+    load_s: Annotated[float, c.c_double]
+    coarser: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_measure(c.Structure):
-    kind: int
-    name: bytes
-    count: int
-    places_world: c.Array[c.c_double]
-    _fields_ = [
-        ("kind", c.c_int),
-        ("name", c.c_char * 64),
-        ("count", c.c_uint32),
-        ("places_world", c.c_double * 192),
-    ]
+    kind: Annotated[int, c.c_int]
+    name: Annotated[bytes, c.c_char * 64]
+    count: Annotated[int, c.c_uint32]
+    places_world: Annotated[c.Array[c.c_double], c.c_double * 192]
 
 
+@_struct
 class ewa_measurement(c.Structure):
-    length_world: float
-    horizontal_world: float
-    rise_world: float
-    slope_deg: float
-    angle_deg: float
-    area: float
-    horizontal_area: float
-    _fields_ = [
-        ("length_world", c.c_double),
-        ("horizontal_world", c.c_double),
-        ("rise_world", c.c_double),
-        ("slope_deg", c.c_double),
-        ("angle_deg", c.c_double),
-        ("area", c.c_double),
-        ("horizontal_area", c.c_double),
-    ]
+    length_world: Annotated[float, c.c_double]
+    horizontal_world: Annotated[float, c.c_double]
+    rise_world: Annotated[float, c.c_double]
+    slope_deg: Annotated[float, c.c_double]
+    angle_deg: Annotated[float, c.c_double]
+    area: Annotated[float, c.c_double]
+    horizontal_area: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_mesh_sample_options(c.Structure):
-    struct_size: int
-    point_count: int
-    spacing_world: float
-    seed: int
-    crease_degrees: float
-    radius_scale: float
-    cutoff: float
-    clip_lines: bool
-    smooth_normals: bool
-    texture_filter: int
-    pixel_sigma_px: float
-    texcoords: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("point_count", c.c_uint64),
-        ("spacing_world", c.c_double),
-        ("seed", c.c_uint64),
-        ("crease_degrees", c.c_double),
-        ("radius_scale", c.c_double),
-        ("cutoff", c.c_double),
-        ("clip_lines", c.c_bool),
-        ("smooth_normals", c.c_bool),
-        ("texture_filter", c.c_int),
-        ("pixel_sigma_px", c.c_double),
-        ("texcoords", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    point_count: Annotated[int, c.c_uint64]
+    spacing_world: Annotated[float, c.c_double]
+    seed: Annotated[int, c.c_uint64]
+    crease_degrees: Annotated[float, c.c_double]
+    radius_scale: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    clip_lines: Annotated[bool, c.c_bool]
+    smooth_normals: Annotated[bool, c.c_bool]
+    texture_filter: Annotated[int, c.c_int]
+    pixel_sigma_px: Annotated[float, c.c_double]
+    texcoords: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_light(c.Structure):
-    direction_world: c.Array[c.c_double]
-    color: c.Array[c.c_float]
-    _fields_ = [
-        ("direction_world", c.c_double * 3),
-        ("color", c.c_float * 3),
-    ]
+    direction_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    color: Annotated[c.Array[c.c_float], c.c_float * 3]
 
 
+@_struct
 class ewa_material(c.Structure):
-    ambient: float
-    diffuse: float
-    specular: float
-    shininess: float
-    reflection: float
-    _fields_ = [
-        ("ambient", c.c_float),
-        ("diffuse", c.c_float),
-        ("specular", c.c_float),
-        ("shininess", c.c_float),
-        ("reflection", c.c_float),
-    ]
+    ambient: Annotated[float, c.c_float]
+    diffuse: Annotated[float, c.c_float]
+    specular: Annotated[float, c.c_float]
+    shininess: Annotated[float, c.c_float]
+    reflection: Annotated[float, c.c_float]
 
 
+@_struct
 class ewa_volume_options(c.Structure):
-    struct_size: int
-    method: int
-    index: int
-    sigma: float
-    cutoff: float
-    prefilter_px: float
-    point_threshold_px: float
-    depth_unit: float
-    level: int
-    density_scale: float
-    minimum_transmittance: float
-    shading: int
-    lights: c.Array[ewa_light]
-    light_count: int
+    struct_size: Annotated[int, c.c_size_t]
+    method: Annotated[int, c.c_int]
+    index: Annotated[int, c.c_int]
+    sigma: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    prefilter_px: Annotated[float, c.c_double]
+    point_threshold_px: Annotated[float, c.c_double]
+    depth_unit: Annotated[float, c.c_double]
+    level: Annotated[int, c.c_uint32]
+    density_scale: Annotated[float, c.c_double]
+    minimum_transmittance: Annotated[float, c.c_double]
+    shading: Annotated[int, c.c_int]
+    lights: Annotated[c.Array[ewa_light], ewa_light * 8]
+    light_count: Annotated[int, c.c_uint32]
     material: ewa_material
-    background: c.Array[c.c_float]
-    surface_depth: int | None
-    surface_rgba: int | None
-    section_planes: c.Array[Any]
-    section_count: int
-    surface_normal: int | None
-    surface_coverage: int | None
-    mark_splats: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("method", c.c_int),
-        ("index", c.c_int),
-        ("sigma", c.c_double),
-        ("cutoff", c.c_double),
-        ("prefilter_px", c.c_double),
-        ("point_threshold_px", c.c_double),
-        ("depth_unit", c.c_double),
-        ("level", c.c_uint32),
-        ("density_scale", c.c_double),
-        ("minimum_transmittance", c.c_double),
-        ("shading", c.c_int),
-        ("lights", ewa_light * 8),
-        ("light_count", c.c_uint32),
-        ("material", ewa_material),
-        ("background", c.c_float * 4),
-        ("surface_depth", c.c_void_p),
-        ("surface_rgba", c.c_void_p),
-        ("section_planes", (c.c_double * 4) * 8),
-        ("section_count", c.c_uint32),
-        ("surface_normal", c.c_void_p),
-        ("surface_coverage", c.c_void_p),
-        ("mark_splats", c.c_bool),
-    ]
+    background: Annotated[c.Array[c.c_float], c.c_float * 4]
+    surface_depth: Annotated[Optional[int], c.c_void_p]
+    surface_rgba: Annotated[Optional[int], c.c_void_p]
+    section_planes: Annotated[c.Array[Any], (c.c_double * 4) * 8]
+    section_count: Annotated[int, c.c_uint32]
+    surface_normal: Annotated[Optional[int], c.c_void_p]
+    surface_coverage: Annotated[Optional[int], c.c_void_p]
+    mark_splats: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_volume_stats(c.Structure):
-    voxel_count: int
-    culled_count: int
-    near_count: int
-    hidden_count: int
-    splat_count: int
-    point_count: int
-    point_share: float
-    bin_s: float
-    setup_s: float
-    points_s: float
-    splats_s: float
-    resolve_s: float
-    total_s: float
-    _fields_ = [
-        ("voxel_count", c.c_uint64),
-        ("culled_count", c.c_uint64),
-        ("near_count", c.c_uint64),
-        ("hidden_count", c.c_uint64),
-        ("splat_count", c.c_uint64),
-        ("point_count", c.c_uint64),
-        ("point_share", c.c_double),
-        ("bin_s", c.c_double),
-        ("setup_s", c.c_double),
-        ("points_s", c.c_double),
-        ("splats_s", c.c_double),
-        ("resolve_s", c.c_double),
-        ("total_s", c.c_double),
-    ]
+    voxel_count: Annotated[int, c.c_uint64]
+    culled_count: Annotated[int, c.c_uint64]
+    near_count: Annotated[int, c.c_uint64]
+    hidden_count: Annotated[int, c.c_uint64]
+    splat_count: Annotated[int, c.c_uint64]
+    point_count: Annotated[int, c.c_uint64]
+    point_share: Annotated[float, c.c_double]
+    bin_s: Annotated[float, c.c_double]
+    setup_s: Annotated[float, c.c_double]
+    points_s: Annotated[float, c.c_double]
+    splats_s: Annotated[float, c.c_double]
+    resolve_s: Annotated[float, c.c_double]
+    total_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_mixed_volume(c.Structure):
-    renderer: int | None
-    voxels: int | None
-    options: Any
-    stats: Any
-    _fields_ = [
-        ("renderer", c.c_void_p),
-        ("voxels", c.c_void_p),
-        ("options", c.POINTER(ewa_volume_options)),
-        ("stats", c.POINTER(ewa_volume_stats)),
-    ]
+    renderer: Annotated[Optional[int], c.c_void_p]
+    voxels: Annotated[Optional[int], c.c_void_p]
+    options: Annotated[Any, c.POINTER(ewa_volume_options)]
+    stats: Annotated[Any, c.POINTER(ewa_volume_stats)]
 
 
+@_struct
 class ewa_mixture(c.Structure):
-    splats: int | None
-    splats_count: int
-    volume_count: int
-    volumes: Any
-    _fields_ = [
-        ("splats", c.c_void_p),
-        ("splats_count", c.c_uint32),
-        ("volume_count", c.c_uint32),
-        ("volumes", c.POINTER(ewa_mixed_volume)),
-    ]
+    splats: Annotated[Optional[int], c.c_void_p]
+    splats_count: Annotated[int, c.c_uint32]
+    volume_count: Annotated[int, c.c_uint32]
+    volumes: Annotated[Any, c.POINTER(ewa_mixed_volume)]
 
 
+@_struct
 class ewa_option(c.Structure):
-    name: bytes | None
-    type: int
-    offset: int
-    minimum: float
-    maximum: float
-    limits: int
-    count: int
-    initial: float
-    initials: int | None
-    unit: bytes | None
-    words: bytes | None
-    help: bytes | None
-    _fields_ = [
-        ("name", c.c_char_p),
-        ("type", c.c_int),
-        ("offset", c.c_size_t),
-        ("minimum", c.c_double),
-        ("maximum", c.c_double),
-        ("limits", c.c_uint32),
-        ("count", c.c_uint32),
-        ("initial", c.c_double),
-        ("initials", c.c_void_p),
-        ("unit", c.c_char_p),
-        ("words", c.c_char_p),
-        ("help", c.c_char_p),
-    ]
+    name: Annotated[Optional[bytes], c.c_char_p]
+    type: Annotated[int, c.c_int]
+    offset: Annotated[int, c.c_size_t]
+    minimum: Annotated[float, c.c_double]
+    maximum: Annotated[float, c.c_double]
+    limits: Annotated[int, c.c_uint32]
+    count: Annotated[int, c.c_uint32]
+    initial: Annotated[float, c.c_double]
+    initials: Annotated[Optional[int], c.c_void_p]
+    unit: Annotated[Optional[bytes], c.c_char_p]
+    words: Annotated[Optional[bytes], c.c_char_p]
+    help: Annotated[Optional[bytes], c.c_char_p]
 
 
+@_struct
 class ewa_option_table(c.Structure):
-    name: bytes | None
-    options: Any
-    option_count: int
-    struct_size: int
-    _fields_ = [
-        ("name", c.c_char_p),
-        ("options", c.POINTER(ewa_option)),
-        ("option_count", c.c_size_t),
-        ("struct_size", c.c_size_t),
-    ]
+    name: Annotated[Optional[bytes], c.c_char_p]
+    options: Annotated[Any, c.POINTER(ewa_option)]
+    option_count: Annotated[int, c.c_size_t]
+    struct_size: Annotated[int, c.c_size_t]
 
 
+@_struct
 class ewa_panorama_options(c.Structure):
-    struct_size: int
-    kind: int
-    fov_deg: float
-    up_world: c.Array[c.c_double]
-    finer: float
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("kind", c.c_int),
-        ("fov_deg", c.c_double),
-        ("up_world", c.c_double * 3),
-        ("finer", c.c_double),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    kind: Annotated[int, c.c_int]
+    fov_deg: Annotated[float, c.c_double]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    finer: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_image_quality(c.Structure):
-    pixel_count: int
-    mean_squared_error: float
-    psnr_db: float
-    ssim: float
-    _fields_ = [
-        ("pixel_count", c.c_uint64),
-        ("mean_squared_error", c.c_double),
-        ("psnr_db", c.c_double),
-        ("ssim", c.c_double),
-    ]
+    pixel_count: Annotated[int, c.c_uint64]
+    mean_squared_error: Annotated[float, c.c_double]
+    psnr_db: Annotated[float, c.c_double]
+    ssim: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_photo_report(c.Structure):
-    held_out: bool
-    width_px: int
-    height_px: int
-    pixel_count: int
-    point_count: int
-    gain: c.Array[c.c_double]
-    offset: c.Array[c.c_double]
-    rms: float
-    rejected: float
-    psnr_db: float
-    world_to_camera: c.Array[c.c_double]
-    shift_px: float
-    _fields_ = [
-        ("held_out", c.c_bool),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("pixel_count", c.c_uint64),
-        ("point_count", c.c_uint64),
-        ("gain", c.c_double * 3),
-        ("offset", c.c_double * 3),
-        ("rms", c.c_double),
-        ("rejected", c.c_double),
-        ("psnr_db", c.c_double),
-        ("world_to_camera", c.c_double * 16),
-        ("shift_px", c.c_double),
-    ]
+    held_out: Annotated[bool, c.c_bool]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
+    pixel_count: Annotated[int, c.c_uint64]
+    point_count: Annotated[int, c.c_uint64]
+    gain: Annotated[c.Array[c.c_double], c.c_double * 3]
+    offset: Annotated[c.Array[c.c_double], c.c_double * 3]
+    rms: Annotated[float, c.c_double]
+    rejected: Annotated[float, c.c_double]
+    psnr_db: Annotated[float, c.c_double]
+    world_to_camera: Annotated[c.Array[c.c_double], c.c_double * 16]
+    shift_px: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_photos_options(c.Structure):
-    struct_size: int
-    method: int
-    exposure: int
-    hold_out: int
-    rounds: int
-    robust: float
-    ridge: float
-    spacing_px: float
-    cutoff: float
-    pose_steps: int
-    vignetting: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("method", c.c_int),
-        ("exposure", c.c_int),
-        ("hold_out", c.c_uint32),
-        ("rounds", c.c_uint32),
-        ("robust", c.c_double),
-        ("ridge", c.c_double),
-        ("spacing_px", c.c_double),
-        ("cutoff", c.c_double),
-        ("pose_steps", c.c_uint32),
-        ("vignetting", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    method: Annotated[int, c.c_int]
+    exposure: Annotated[int, c.c_int]
+    hold_out: Annotated[int, c.c_uint32]
+    rounds: Annotated[int, c.c_uint32]
+    robust: Annotated[float, c.c_double]
+    ridge: Annotated[float, c.c_double]
+    spacing_px: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    pose_steps: Annotated[int, c.c_uint32]
+    vignetting: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_photos_report(c.Structure):
-    used_count: int
-    held_out_count: int
-    seen_count: int
-    rms: float
-    held_out_rms: float
-    psnr_db: float
-    held_out_psnr_db: float
-    vignetting: c.Array[c.c_double]
-    low: float
-    high: float
-    _fields_ = [
-        ("used_count", c.c_uint32),
-        ("held_out_count", c.c_uint32),
-        ("seen_count", c.c_uint64),
-        ("rms", c.c_double),
-        ("held_out_rms", c.c_double),
-        ("psnr_db", c.c_double),
-        ("held_out_psnr_db", c.c_double),
-        ("vignetting", c.c_double * 2),
-        ("low", c.c_float),
-        ("high", c.c_float),
-    ]
+    used_count: Annotated[int, c.c_uint32]
+    held_out_count: Annotated[int, c.c_uint32]
+    seen_count: Annotated[int, c.c_uint64]
+    rms: Annotated[float, c.c_double]
+    held_out_rms: Annotated[float, c.c_double]
+    psnr_db: Annotated[float, c.c_double]
+    held_out_psnr_db: Annotated[float, c.c_double]
+    vignetting: Annotated[c.Array[c.c_double], c.c_double * 2]
+    low: Annotated[float, c.c_float]
+    high: Annotated[float, c.c_float]
 
 
+@_struct
 class ewa_csg_options(c.Structure):
-    struct_size: int
-    operation: int
-    cutoff: float
-    names: c.Array[c.c_char_p]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("operation", c.c_int),
-        ("cutoff", c.c_double),
-        ("names", c.c_char_p * 2),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    operation: Annotated[int, c.c_int]
+    cutoff: Annotated[float, c.c_double]
+    names: Annotated[c.Array[c.c_char_p], c.c_char_p * 2]
 
 
+@_struct
 class ewa_estimate_options(c.Structure):
-    struct_size: int
-    neighbour_count: int
-    orientation: int
-    viewpoint_world: c.Array[c.c_double]
-    shape: int
-    radius_scale: float
-    radius_limit: float
-    cutoff: float
-    keep_normals: bool
-    keep_radii: bool
-    outlier_factor: float
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("neighbour_count", c.c_uint32),
-        ("orientation", c.c_int),
-        ("viewpoint_world", c.c_double * 3),
-        ("shape", c.c_int),
-        ("radius_scale", c.c_double),
-        ("radius_limit", c.c_double),
-        ("cutoff", c.c_double),
-        ("keep_normals", c.c_bool),
-        ("keep_radii", c.c_bool),
-        ("outlier_factor", c.c_double),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    neighbour_count: Annotated[int, c.c_uint32]
+    orientation: Annotated[int, c.c_int]
+    viewpoint_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    shape: Annotated[int, c.c_int]
+    radius_scale: Annotated[float, c.c_double]
+    radius_limit: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    keep_normals: Annotated[bool, c.c_bool]
+    keep_radii: Annotated[bool, c.c_bool]
+    outlier_factor: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_feature_counts(c.Structure):
-    snapped_count: int
-    edge_count: int
-    corner_count: int
-    noise: float
-    neighbour_count: int
-    _fields_ = [
-        ("snapped_count", c.c_uint64),
-        ("edge_count", c.c_uint64),
-        ("corner_count", c.c_uint64),
-        ("noise", c.c_double),
-        ("neighbour_count", c.c_uint32),
-    ]
+    snapped_count: Annotated[int, c.c_uint64]
+    edge_count: Annotated[int, c.c_uint64]
+    corner_count: Annotated[int, c.c_uint64]
+    noise: Annotated[float, c.c_double]
+    neighbour_count: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_feature_options(c.Structure):
-    struct_size: int
-    neighbour_count: int
-    angle_deg: float
-    noise: float
-    cutoff: float
-    project: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("neighbour_count", c.c_uint32),
-        ("angle_deg", c.c_double),
-        ("noise", c.c_double),
-        ("cutoff", c.c_double),
-        ("project", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    neighbour_count: Annotated[int, c.c_uint32]
+    angle_deg: Annotated[float, c.c_double]
+    noise: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    project: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_generate_options(c.Structure):
-    struct_size: int
-    object: int
-    point_count: int
-    seed: int
-    size_world: float
-    jitter: float
-    checks: float
-    radius_scale: float
-    positions_only: bool
-    sharp: bool
-    texcoords: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("object", c.c_int),
-        ("point_count", c.c_uint64),
-        ("seed", c.c_uint64),
-        ("size_world", c.c_double),
-        ("jitter", c.c_double),
-        ("checks", c.c_double),
-        ("radius_scale", c.c_double),
-        ("positions_only", c.c_bool),
-        ("sharp", c.c_bool),
-        ("texcoords", c.c_bool),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    object: Annotated[int, c.c_int]
+    point_count: Annotated[int, c.c_uint64]
+    seed: Annotated[int, c.c_uint64]
+    size_world: Annotated[float, c.c_double]
+    jitter: Annotated[float, c.c_double]
+    checks: Annotated[float, c.c_double]
+    radius_scale: Annotated[float, c.c_double]
+    positions_only: Annotated[bool, c.c_bool]
+    sharp: Annotated[bool, c.c_bool]
+    texcoords: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_refit_options(c.Structure):
-    struct_size: int
-    goal: int
-    cutoff: float
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("goal", c.c_int),
-        ("cutoff", c.c_double),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    goal: Annotated[int, c.c_int]
+    cutoff: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_refit_report(c.Structure):
-    surfel_count: int
-    left_out_count: int
-    before_rms: float
-    after_rms: float
-    low: float
-    high: float
-    iteration_count: int
-    _fields_ = [
-        ("surfel_count", c.c_uint64),
-        ("left_out_count", c.c_uint64),
-        ("before_rms", c.c_double),
-        ("after_rms", c.c_double),
-        ("low", c.c_float),
-        ("high", c.c_float),
-        ("iteration_count", c.c_uint32),
-    ]
+    surfel_count: Annotated[int, c.c_uint64]
+    left_out_count: Annotated[int, c.c_uint64]
+    before_rms: Annotated[float, c.c_double]
+    after_rms: Annotated[float, c.c_double]
+    low: Annotated[float, c.c_float]
+    high: Annotated[float, c.c_float]
+    iteration_count: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_spacing(c.Structure):
-    median_world: float
-    mean_world: float
-    low_world: float
-    high_world: float
-    duplicate_count: int
-    _fields_ = [
-        ("median_world", c.c_double),
-        ("mean_world", c.c_double),
-        ("low_world", c.c_double),
-        ("high_world", c.c_double),
-        ("duplicate_count", c.c_uint64),
-    ]
+    median_world: Annotated[float, c.c_double]
+    mean_world: Annotated[float, c.c_double]
+    low_world: Annotated[float, c.c_double]
+    high_world: Annotated[float, c.c_double]
+    duplicate_count: Annotated[int, c.c_uint64]
 
 
+@_struct
 class ewa_volume_generate_options(c.Structure):
-    struct_size: int
-    object: int
-    dims: c.Array[c.c_uint32]
-    size_world: float
-    checks: float
-    seed: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("object", c.c_int),
-        ("dims", c.c_uint32 * 3),
-        ("size_world", c.c_double),
-        ("checks", c.c_double),
-        ("seed", c.c_uint64),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    object: Annotated[int, c.c_int]
+    dims: Annotated[c.Array[c.c_uint32], c.c_uint32 * 3]
+    size_world: Annotated[float, c.c_double]
+    checks: Annotated[float, c.c_double]
+    seed: Annotated[int, c.c_uint64]
 
 
+@_struct
 class ewa_procedure_options(c.Structure):
-    struct_size: int
-    procedure: int
-    frequency: float
-    prefilter: float
-    cutoff: float
-    seed: int
-    colors: c.Array[Any]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("procedure", c.c_int),
-        ("frequency", c.c_double),
-        ("prefilter", c.c_double),
-        ("cutoff", c.c_double),
-        ("seed", c.c_uint64),
-        ("colors", (c.c_float * 3) * 2),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    procedure: Annotated[int, c.c_int]
+    frequency: Annotated[float, c.c_double]
+    prefilter: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    seed: Annotated[int, c.c_uint64]
+    colors: Annotated[c.Array[Any], (c.c_float * 3) * 2]
 
 
+@_struct
 class ewa_profile(c.Structure):
-    context: int | None
-    points: int | None
-    srgb: int | None
-    length_world: float
-    up_world: c.Array[c.c_double]
-    unit: bytes | None
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("points", c.c_void_p),
-        ("srgb", c.c_void_p),
-        ("length_world", c.c_double),
-        ("up_world", c.c_double * 3),
-        ("unit", c.c_char_p),
-    ]
+    context: Annotated[Optional[int], c.c_void_p]
+    points: Annotated[Optional[int], c.c_void_p]
+    srgb: Annotated[Optional[int], c.c_void_p]
+    length_world: Annotated[float, c.c_double]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    unit: Annotated[Optional[bytes], c.c_char_p]
 
 
+@_struct
 class ewa_profile_graph_options(c.Structure):
-    struct_size: int
-    exaggeration: float
-    point_size_px: float
-    pixel_scale: float
-    title: bytes | None
-    unit: bytes | None
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("exaggeration", c.c_double),
-        ("point_size_px", c.c_double),
-        ("pixel_scale", c.c_double),
-        ("title", c.c_char_p),
-        ("unit", c.c_char_p),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    exaggeration: Annotated[float, c.c_double]
+    point_size_px: Annotated[float, c.c_double]
+    pixel_scale: Annotated[float, c.c_double]
+    title: Annotated[Optional[bytes], c.c_char_p]
+    unit: Annotated[Optional[bytes], c.c_char_p]
 
 
+@_struct
 class ewa_profile_options(c.Structure):
-    struct_size: int
-    width_world: float
-    up_world: c.Array[c.c_double]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("width_world", c.c_double),
-        ("up_world", c.c_double * 3),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    width_world: Annotated[float, c.c_double]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_region(c.Structure):
-    kept: bool
-    has_box: bool
-    has_classes: bool
-    box_world: c.Array[c.c_double]
-    box_axes_world: c.Array[c.c_double]
-    corner_count: int
-    outline_px: c.Array[c.c_double]
-    world_to_picture: c.Array[c.c_double]
-    classes: c.Array[c.c_uint32]
-    _fields_ = [
-        ("kept", c.c_bool),
-        ("has_box", c.c_bool),
-        ("has_classes", c.c_bool),
-        ("box_world", c.c_double * 6),
-        ("box_axes_world", c.c_double * 9),
-        ("corner_count", c.c_uint32),
-        ("outline_px", c.c_double * 128),
-        ("world_to_picture", c.c_double * 12),
-        ("classes", c.c_uint32 * 8),
-    ]
+    kept: Annotated[bool, c.c_bool]
+    has_box: Annotated[bool, c.c_bool]
+    has_classes: Annotated[bool, c.c_bool]
+    box_world: Annotated[c.Array[c.c_double], c.c_double * 6]
+    box_axes_world: Annotated[c.Array[c.c_double], c.c_double * 9]
+    corner_count: Annotated[int, c.c_uint32]
+    outline_px: Annotated[c.Array[c.c_double], c.c_double * 128]
+    world_to_picture: Annotated[c.Array[c.c_double], c.c_double * 12]
+    classes: Annotated[c.Array[c.c_uint32], c.c_uint32 * 8]
 
 
+@_struct
 class ewa_frame(c.Structure):
-    rgba8: int | None
-    rgba: int | None
-    depth: int | None
-    normal: int | None
-    coverage: int | None
-    _fields_ = [
-        ("rgba8", c.c_void_p),
-        ("rgba", c.c_void_p),
-        ("depth", c.c_void_p),
-        ("normal", c.c_void_p),
-        ("coverage", c.c_void_p),
-    ]
+    rgba8: Annotated[Optional[int], c.c_void_p]
+    rgba: Annotated[Optional[int], c.c_void_p]
+    depth: Annotated[Optional[int], c.c_void_p]
+    normal: Annotated[Optional[int], c.c_void_p]
+    coverage: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_render_options(c.Structure):
-    struct_size: int
-    kernel: int
-    prefilter_px: float
-    point_size_px: float
-    tolerance: float
-    passes: int
-    edge_antialiasing: bool
-    edge_threshold: float
-    edge_layers: int
-    opacity: float
-    layers: int
-    cull: int
-    shading: int
-    lights: c.Array[ewa_light]
-    light_count: int
-    ambient: float
-    materials: Any
-    material_count: int
-    environment: int | None
-    environment_up: c.Array[c.c_double]
-    eye_dome: float
-    background: c.Array[c.c_float]
-    section_planes: c.Array[Any]
-    section_count: int
-    level: int
-    budget_s: float
-    supersampling: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("kernel", c.c_int),
-        ("prefilter_px", c.c_double),
-        ("point_size_px", c.c_double),
-        ("tolerance", c.c_double),
-        ("passes", c.c_uint32),
-        ("edge_antialiasing", c.c_bool),
-        ("edge_threshold", c.c_double),
-        ("edge_layers", c.c_uint32),
-        ("opacity", c.c_double),
-        ("layers", c.c_uint32),
-        ("cull", c.c_int),
-        ("shading", c.c_int),
-        ("lights", ewa_light * 8),
-        ("light_count", c.c_uint32),
-        ("ambient", c.c_double),
-        ("materials", c.POINTER(ewa_material)),
-        ("material_count", c.c_uint32),
-        ("environment", c.c_void_p),
-        ("environment_up", c.c_double * 3),
-        ("eye_dome", c.c_double),
-        ("background", c.c_float * 4),
-        ("section_planes", (c.c_double * 4) * 8),
-        ("section_count", c.c_uint32),
-        ("level", c.c_uint32),
-        ("budget_s", c.c_double),
-        ("supersampling", c.c_uint32),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    kernel: Annotated[int, c.c_int]
+    prefilter_px: Annotated[float, c.c_double]
+    point_size_px: Annotated[float, c.c_double]
+    tolerance: Annotated[float, c.c_double]
+    passes: Annotated[int, c.c_uint32]
+    edge_antialiasing: Annotated[bool, c.c_bool]
+    edge_threshold: Annotated[float, c.c_double]
+    edge_layers: Annotated[int, c.c_uint32]
+    opacity: Annotated[float, c.c_double]
+    layers: Annotated[int, c.c_uint32]
+    cull: Annotated[int, c.c_int]
+    shading: Annotated[int, c.c_int]
+    lights: Annotated[c.Array[ewa_light], ewa_light * 8]
+    light_count: Annotated[int, c.c_uint32]
+    ambient: Annotated[float, c.c_double]
+    materials: Annotated[Any, c.POINTER(ewa_material)]
+    material_count: Annotated[int, c.c_uint32]
+    environment: Annotated[Optional[int], c.c_void_p]
+    environment_up: Annotated[c.Array[c.c_double], c.c_double * 3]
+    eye_dome: Annotated[float, c.c_double]
+    background: Annotated[c.Array[c.c_float], c.c_float * 4]
+    section_planes: Annotated[c.Array[Any], (c.c_double * 4) * 8]
+    section_count: Annotated[int, c.c_uint32]
+    level: Annotated[int, c.c_uint32]
+    budget_s: Annotated[float, c.c_double]
+    supersampling: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_surfels_info(c.Structure):
-    point_count: int
-    left_out_count: int
-    resident_bytes: int
-    unit_coverage: float
-    transparent: bool
+    point_count: Annotated[int, c.c_uint64]
+    left_out_count: Annotated[int, c.c_uint64]
+    resident_bytes: Annotated[int, c.c_size_t]
+    unit_coverage: Annotated[float, c.c_double]
+    transparent: Annotated[bool, c.c_bool]
     bounds: ewa_bounds
-    material_count: int
-    level_count: int
-    _fields_ = [
-        ("point_count", c.c_uint64),
-        ("left_out_count", c.c_uint64),
-        ("resident_bytes", c.c_size_t),
-        ("unit_coverage", c.c_double),
-        ("transparent", c.c_bool),
-        ("bounds", ewa_bounds),
-        ("material_count", c.c_uint32),
-        ("level_count", c.c_uint32),
-    ]
+    material_count: Annotated[int, c.c_uint32]
+    level_count: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_surfels_options(c.Structure):
-    struct_size: int
-    cutoff: float
-    radius_scale: float
-    level_count: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("cutoff", c.c_double),
-        ("radius_scale", c.c_double),
-        ("level_count", c.c_uint32),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    cutoff: Annotated[float, c.c_double]
+    radius_scale: Annotated[float, c.c_double]
+    level_count: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_texture_options(c.Structure):
-    struct_size: int
-    method: int
-    prefilter_px: float
-    cutoff: float
-    sigma_texels: float
-    point_spacing_px: float
-    repeat: bool
-    background: c.Array[c.c_float]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("method", c.c_int),
-        ("prefilter_px", c.c_double),
-        ("cutoff", c.c_double),
-        ("sigma_texels", c.c_double),
-        ("point_spacing_px", c.c_double),
-        ("repeat", c.c_bool),
-        ("background", c.c_float * 4),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    method: Annotated[int, c.c_int]
+    prefilter_px: Annotated[float, c.c_double]
+    cutoff: Annotated[float, c.c_double]
+    sigma_texels: Annotated[float, c.c_double]
+    point_spacing_px: Annotated[float, c.c_double]
+    repeat: Annotated[bool, c.c_bool]
+    background: Annotated[c.Array[c.c_float], c.c_float * 4]
 
 
+@_struct
 class ewa_texture_source(c.Structure):
-    pixels: int | None
-    format: int
-    channel_count: int
-    width_px: int
-    height_px: int
-    stride_bytes: int
-    _fields_ = [
-        ("pixels", c.c_void_p),
-        ("format", c.c_int),
-        ("channel_count", c.c_uint32),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("stride_bytes", c.c_size_t),
-    ]
+    pixels: Annotated[Optional[int], c.c_void_p]
+    format: Annotated[int, c.c_int]
+    channel_count: Annotated[int, c.c_uint32]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
+    stride_bytes: Annotated[int, c.c_size_t]
 
 
+@_struct
 class ewa_texture_stats(c.Structure):
-    splat_count: int
-    point_count: int
-    texel_count: int
-    point_texel_count: int
-    level_bytes: int
-    levels_s: float
-    total_s: float
-    _fields_ = [
-        ("splat_count", c.c_uint64),
-        ("point_count", c.c_uint64),
-        ("texel_count", c.c_uint64),
-        ("point_texel_count", c.c_uint64),
-        ("level_bytes", c.c_uint64),
-        ("levels_s", c.c_double),
-        ("total_s", c.c_double),
-    ]
+    splat_count: Annotated[int, c.c_uint64]
+    point_count: Annotated[int, c.c_uint64]
+    texel_count: Annotated[int, c.c_uint64]
+    point_texel_count: Annotated[int, c.c_uint64]
+    level_bytes: Annotated[int, c.c_uint64]
+    levels_s: Annotated[float, c.c_double]
+    total_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_texture_target(c.Structure):
-    pixels: int | None
-    format: int
-    channel_count: int
-    width_px: int
-    height_px: int
-    stride_bytes: int
-    _fields_ = [
-        ("pixels", c.c_void_p),
-        ("format", c.c_int),
-        ("channel_count", c.c_uint32),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("stride_bytes", c.c_size_t),
-    ]
+    pixels: Annotated[Optional[int], c.c_void_p]
+    format: Annotated[int, c.c_int]
+    channel_count: Annotated[int, c.c_uint32]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
+    stride_bytes: Annotated[int, c.c_size_t]
 
 
+@_struct
 class ewa_asset_info(c.Structure):
-    kind: int
-    name: bytes | None
-    count: int
+    kind: Annotated[int, c.c_int]
+    name: Annotated[Optional[bytes], c.c_char_p]
+    count: Annotated[int, c.c_uint64]
     bounds: ewa_bounds
-    cloud: int | None
-    lod: int | None
-    surfels: int | None
-    splats: int | None
-    voxels: int | None
-    up_world: c.Array[c.c_double]
-    load_s: float
-    drawable: bool
-    changeable: bool
-    colorable: bool
-    _fields_ = [
-        ("kind", c.c_int),
-        ("name", c.c_char_p),
-        ("count", c.c_uint64),
-        ("bounds", ewa_bounds),
-        ("cloud", c.c_void_p),
-        ("lod", c.c_void_p),
-        ("surfels", c.c_void_p),
-        ("splats", c.c_void_p),
-        ("voxels", c.c_void_p),
-        ("up_world", c.c_double * 3),
-        ("load_s", c.c_double),
-        ("drawable", c.c_bool),
-        ("changeable", c.c_bool),
-        ("colorable", c.c_bool),
-    ]
+    cloud: Annotated[Optional[int], c.c_void_p]
+    lod: Annotated[Optional[int], c.c_void_p]
+    surfels: Annotated[Optional[int], c.c_void_p]
+    splats: Annotated[Optional[int], c.c_void_p]
+    voxels: Annotated[Optional[int], c.c_void_p]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    load_s: Annotated[float, c.c_double]
+    drawable: Annotated[bool, c.c_bool]
+    changeable: Annotated[bool, c.c_bool]
+    colorable: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_filter_range(c.Structure):
-    low: float
-    high: float
-    low_open: bool
-    high_open: bool
-    _fields_ = [
-        ("low", c.c_double),
-        ("high", c.c_double),
-        ("low_open", c.c_bool),
-        ("high_open", c.c_bool),
-    ]
+    low: Annotated[float, c.c_double]
+    high: Annotated[float, c.c_double]
+    low_open: Annotated[bool, c.c_bool]
+    high_open: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_filter_term(c.Structure):
-    name: bytes
-    outside: bool
-    range_count: int
-    ranges: c.Array[ewa_filter_range]
-    _fields_ = [
-        ("name", c.c_char * 64),
-        ("outside", c.c_bool),
-        ("range_count", c.c_uint32),
-        ("ranges", ewa_filter_range * 32),
-    ]
+    name: Annotated[bytes, c.c_char * 64]
+    outside: Annotated[bool, c.c_bool]
+    range_count: Annotated[int, c.c_uint32]
+    ranges: Annotated[c.Array[ewa_filter_range], ewa_filter_range * 32]
 
 
+@_struct
 class ewa_filter(c.Structure):
-    term_count: int
-    terms: c.Array[ewa_filter_term]
-    _fields_ = [
-        ("term_count", c.c_uint32),
-        ("terms", ewa_filter_term * 16),
-    ]
+    term_count: Annotated[int, c.c_uint32]
+    terms: Annotated[c.Array[ewa_filter_term], ewa_filter_term * 16]
 
 
+@_struct
 class ewa_asset_options(c.Structure):
-    struct_size: int
-    load: Any
-    filter: Any
-    to_world: c.Array[c.c_double]
-    gaussians_as_surfels: bool
-    gaussian_levels: bool
-    levels: int
-    cutoff: float
-    transfer: bytes | None
-    voxel_level_count: int
-    voxel_level_minimum: int
-    reach_steps: float
-    own_context: bool
-    reader: Any
-    reader_user: int | None
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("load", c.POINTER(ewa_cloud_load_options)),
-        ("filter", c.POINTER(ewa_filter)),
-        ("to_world", c.c_double * 16),
-        ("gaussians_as_surfels", c.c_bool),
-        ("gaussian_levels", c.c_bool),
-        ("levels", c.c_int),
-        ("cutoff", c.c_double),
-        ("transfer", c.c_char_p),
-        ("voxel_level_count", c.c_uint32),
-        ("voxel_level_minimum", c.c_uint32),
-        ("reach_steps", c.c_double),
-        ("own_context", c.c_bool),
-        ("reader", ewa_asset_reader),
-        ("reader_user", c.c_void_p),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    load: Annotated[Any, c.POINTER(ewa_cloud_load_options)]
+    filter: Annotated[Any, c.POINTER(ewa_filter)]
+    to_world: Annotated[c.Array[c.c_double], c.c_double * 16]
+    gaussians_as_surfels: Annotated[bool, c.c_bool]
+    gaussian_levels: Annotated[bool, c.c_bool]
+    levels: Annotated[int, c.c_int]
+    cutoff: Annotated[float, c.c_double]
+    transfer: Annotated[Optional[bytes], c.c_char_p]
+    voxel_level_count: Annotated[int, c.c_uint32]
+    voxel_level_minimum: Annotated[int, c.c_uint32]
+    reach_steps: Annotated[float, c.c_double]
+    own_context: Annotated[bool, c.c_bool]
+    reader: Annotated[Any, ewa_asset_reader]
+    reader_user: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_transfer_point(c.Structure):
-    value: float
-    color: c.Array[c.c_float]
-    extinction: float
-    _fields_ = [
-        ("value", c.c_double),
-        ("color", c.c_float * 3),
-        ("extinction", c.c_float),
-    ]
+    value: Annotated[float, c.c_double]
+    color: Annotated[c.Array[c.c_float], c.c_float * 3]
+    extinction: Annotated[float, c.c_float]
 
 
+@_struct
 class ewa_transfer(c.Structure):
-    points: c.Array[ewa_transfer_point]
-    point_count: int
-    unit_length_world: float
-    gradient_low: float
-    gradient_high: float
-    _fields_ = [
-        ("points", ewa_transfer_point * 1024),
-        ("point_count", c.c_uint32),
-        ("unit_length_world", c.c_double),
-        ("gradient_low", c.c_double),
-        ("gradient_high", c.c_double),
-    ]
+    points: Annotated[c.Array[ewa_transfer_point], ewa_transfer_point * 1024]
+    point_count: Annotated[int, c.c_uint32]
+    unit_length_world: Annotated[float, c.c_double]
+    gradient_low: Annotated[float, c.c_double]
+    gradient_high: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_volume(c.Structure):
-    context: int | None
-    dims: c.Array[c.c_uint32]
-    type: int
-    voxels: int | None
-    index_to_world: c.Array[c.c_double]
-    anatomical: bool
-    _fields_ = [
-        ("context", c.c_void_p),
-        ("dims", c.c_uint32 * 3),
-        ("type", c.c_int),
-        ("voxels", c.c_void_p),
-        ("index_to_world", c.c_double * 12),
-        ("anatomical", c.c_bool),
-    ]
+    context: Annotated[Optional[int], c.c_void_p]
+    dims: Annotated[c.Array[c.c_uint32], c.c_uint32 * 3]
+    type: Annotated[int, c.c_int]
+    voxels: Annotated[Optional[int], c.c_void_p]
+    index_to_world: Annotated[c.Array[c.c_double], c.c_double * 12]
+    anatomical: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_asset_source(c.Structure):
-    name: bytes | None
-    cloud: int | None
-    surfels: int | None
-    lod: int | None
-    splats: int | None
-    voxels: int | None
-    mesh: Any
-    gaussians: Any
-    volume: Any
-    transfer: Any
-    outline: int | None
-    up_world: c.Array[c.c_double]
-    flat: bool
-    release: Any
-    user: int | None
-    _fields_ = [
-        ("name", c.c_char_p),
-        ("cloud", c.c_void_p),
-        ("surfels", c.c_void_p),
-        ("lod", c.c_void_p),
-        ("splats", c.c_void_p),
-        ("voxels", c.c_void_p),
-        ("mesh", c.POINTER(ewa_mesh)),
-        ("gaussians", c.POINTER(ewa_gaussians)),
-        ("volume", c.POINTER(ewa_volume)),
-        ("transfer", c.POINTER(ewa_transfer)),
-        ("outline", c.c_void_p),
-        ("up_world", c.c_double * 3),
-        ("flat", c.c_bool),
-        ("release", c.CFUNCTYPE(None, c.c_void_p)),
-        ("user", c.c_void_p),
-    ]
+    name: Annotated[Optional[bytes], c.c_char_p]
+    cloud: Annotated[Optional[int], c.c_void_p]
+    surfels: Annotated[Optional[int], c.c_void_p]
+    lod: Annotated[Optional[int], c.c_void_p]
+    splats: Annotated[Optional[int], c.c_void_p]
+    voxels: Annotated[Optional[int], c.c_void_p]
+    mesh: Annotated[Any, c.POINTER(ewa_mesh)]
+    gaussians: Annotated[Any, c.POINTER(ewa_gaussians)]
+    volume: Annotated[Any, c.POINTER(ewa_volume)]
+    transfer: Annotated[Any, c.POINTER(ewa_transfer)]
+    outline: Annotated[Optional[int], c.c_void_p]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    flat: Annotated[bool, c.c_bool]
+    release: Annotated[Any, c.CFUNCTYPE(None, c.c_void_p)]
+    user: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_instance(c.Structure):
-    struct_size: int
-    visible: bool
-    opacity: float
-    radius_scale: float
-    material: int
+    struct_size: Annotated[int, c.c_size_t]
+    visible: Annotated[bool, c.c_bool]
+    opacity: Annotated[float, c.c_double]
+    radius_scale: Annotated[float, c.c_double]
+    material: Annotated[int, c.c_uint32]
     coloring: ewa_coloring
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("visible", c.c_bool),
-        ("opacity", c.c_double),
-        ("radius_scale", c.c_double),
-        ("material", c.c_uint32),
-        ("coloring", ewa_coloring),
-    ]
 
 
+@_struct
 class ewa_photo_comparison(c.Structure):
     photo: ewa_image
     picture: ewa_image
     quality: ewa_image_quality
-    _fields_ = [
-        ("photo", ewa_image),
-        ("picture", ewa_image),
-        ("quality", ewa_image_quality),
-    ]
 
 
+@_struct
 class ewa_scene_hit(c.Structure):
-    hit: bool
-    depth: float
-    place_world: c.Array[c.c_double]
-    has_point: bool
-    instance: int
-    point: int
-    point_world: c.Array[c.c_double]
-    points: int | None
-    _fields_ = [
-        ("hit", c.c_bool),
-        ("depth", c.c_double),
-        ("place_world", c.c_double * 3),
-        ("has_point", c.c_bool),
-        ("instance", c.c_uint32),
-        ("point", c.c_uint64),
-        ("point_world", c.c_double * 3),
-        ("points", c.c_void_p),
-    ]
+    hit: Annotated[bool, c.c_bool]
+    depth: Annotated[float, c.c_double]
+    place_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    has_point: Annotated[bool, c.c_bool]
+    instance: Annotated[int, c.c_uint32]
+    point: Annotated[int, c.c_uint64]
+    point_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    points: Annotated[Optional[int], c.c_void_p]
 
 
+@_struct
 class ewa_scene_info(c.Structure):
-    instance_count: int
-    visible_count: int
-    point_count: int
-    surfaces: bool
-    octrees: bool
-    gaussians: bool
-    volumes: bool
-    gaussian_levels: bool
+    instance_count: Annotated[int, c.c_uint32]
+    visible_count: Annotated[int, c.c_uint32]
+    point_count: Annotated[int, c.c_uint64]
+    surfaces: Annotated[bool, c.c_bool]
+    octrees: Annotated[bool, c.c_bool]
+    gaussians: Annotated[bool, c.c_bool]
+    volumes: Annotated[bool, c.c_bool]
+    gaussian_levels: Annotated[bool, c.c_bool]
     surfels: ewa_surfels_info
-    resident: int | None
-    unit: bytes | None
-    estimated_count: int
-    load_s: float
-    estimate_s: float
-    surfels_s: float
-    _fields_ = [
-        ("instance_count", c.c_uint32),
-        ("visible_count", c.c_uint32),
-        ("point_count", c.c_uint64),
-        ("surfaces", c.c_bool),
-        ("octrees", c.c_bool),
-        ("gaussians", c.c_bool),
-        ("volumes", c.c_bool),
-        ("gaussian_levels", c.c_bool),
-        ("surfels", ewa_surfels_info),
-        ("resident", c.c_void_p),
-        ("unit", c.c_char_p),
-        ("estimated_count", c.c_uint64),
-        ("load_s", c.c_double),
-        ("estimate_s", c.c_double),
-        ("surfels_s", c.c_double),
-    ]
+    resident: Annotated[Optional[int], c.c_void_p]
+    unit: Annotated[Optional[bytes], c.c_char_p]
+    estimated_count: Annotated[int, c.c_uint64]
+    load_s: Annotated[float, c.c_double]
+    estimate_s: Annotated[float, c.c_double]
+    surfels_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_scene_options(c.Structure):
-    struct_size: int
-    up: int
-    close_gaps: bool
-    keep_points: bool
-    shade_volumes: bool
+    struct_size: Annotated[int, c.c_size_t]
+    up: Annotated[int, c.c_int]
+    close_gaps: Annotated[bool, c.c_bool]
+    keep_points: Annotated[bool, c.c_bool]
+    shade_volumes: Annotated[bool, c.c_bool]
     surfels: ewa_surfels_options
     lod: ewa_lod_options
     render: ewa_render_options
     gaussians: ewa_gaussian_options
     volumes: ewa_volume_options
-    regions: c.Array[ewa_region]
-    region_count: int
-    many_frames: bool
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("up", c.c_int),
-        ("close_gaps", c.c_bool),
-        ("keep_points", c.c_bool),
-        ("shade_volumes", c.c_bool),
-        ("surfels", ewa_surfels_options),
-        ("lod", ewa_lod_options),
-        ("render", ewa_render_options),
-        ("gaussians", ewa_gaussian_options),
-        ("volumes", ewa_volume_options),
-        ("regions", ewa_region * 16),
-        ("region_count", c.c_uint32),
-        ("many_frames", c.c_bool),
-    ]
+    regions: Annotated[c.Array[ewa_region], ewa_region * 16]
+    region_count: Annotated[int, c.c_uint32]
+    many_frames: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_scene_stats(c.Structure):
     render: ewa_render_stats
     lod: ewa_lod_stats
     volumes: ewa_volume_stats
-    total_s: float
-    _fields_ = [
-        ("render", ewa_render_stats),
-        ("lod", ewa_lod_stats),
-        ("volumes", ewa_volume_stats),
-        ("total_s", c.c_double),
-    ]
+    total_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_view_info(c.Structure):
     upright: ewa_upright
-    up_world: c.Array[c.c_double]
-    pivot_world: c.Array[c.c_double]
-    trimmed: bool
-    _fields_ = [
-        ("upright", ewa_upright),
-        ("up_world", c.c_double * 3),
-        ("pivot_world", c.c_double * 3),
-        ("trimmed", c.c_bool),
-    ]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    pivot_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    trimmed: Annotated[bool, c.c_bool]
 
 
+@_struct
 class ewa_view_options(c.Structure):
-    struct_size: int
-    width_px: int
-    height_px: int
-    fov_deg: float
-    ortho_height_world: float
-    view: int
-    up_world: c.Array[c.c_double]
-    has_eye: bool
-    has_target: bool
-    eye_world: c.Array[c.c_double]
-    target_world: c.Array[c.c_double]
-    azimuth_deg: float
-    elevation_deg: float
-    turntable: bool
-    direction_world: c.Array[c.c_double]
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("width_px", c.c_uint32),
-        ("height_px", c.c_uint32),
-        ("fov_deg", c.c_double),
-        ("ortho_height_world", c.c_double),
-        ("view", c.c_int32),
-        ("up_world", c.c_double * 3),
-        ("has_eye", c.c_bool),
-        ("has_target", c.c_bool),
-        ("eye_world", c.c_double * 3),
-        ("target_world", c.c_double * 3),
-        ("azimuth_deg", c.c_double),
-        ("elevation_deg", c.c_double),
-        ("turntable", c.c_bool),
-        ("direction_world", c.c_double * 3),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    width_px: Annotated[int, c.c_uint32]
+    height_px: Annotated[int, c.c_uint32]
+    fov_deg: Annotated[float, c.c_double]
+    ortho_height_world: Annotated[float, c.c_double]
+    view: Annotated[int, c.c_int32]
+    up_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    has_eye: Annotated[bool, c.c_bool]
+    has_target: Annotated[bool, c.c_bool]
+    eye_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    target_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    azimuth_deg: Annotated[float, c.c_double]
+    elevation_deg: Annotated[float, c.c_double]
+    turntable: Annotated[bool, c.c_bool]
+    direction_world: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_scene_entry(c.Structure):
-    path: bytes | None
+    path: Annotated[Optional[bytes], c.c_char_p]
     asset: ewa_asset_options
     instance: ewa_instance
-    _fields_ = [
-        ("path", c.c_char_p),
-        ("asset", ewa_asset_options),
-        ("instance", ewa_instance),
-    ]
 
 
+@_struct
 class ewa_scalar(c.Structure):
     attribute: ewa_attribute
-    component: int
-    shift_world: float
+    component: Annotated[int, c.c_uint32]
+    shift_world: Annotated[float, c.c_double]
     grid: ewa_coordinate_grid
-    _fields_ = [
-        ("attribute", ewa_attribute),
-        ("component", c.c_uint32),
-        ("shift_world", c.c_double),
-        ("grid", ewa_coordinate_grid),
-    ]
 
 
+@_struct
 class ewa_volume_facts(c.Structure):
-    voxel_count: int
-    finite_count: int
-    low: float
-    high: float
-    mean: float
-    histogram: c.Array[c.c_uint64]
-    spacing_world: c.Array[c.c_double]
-    low_world: c.Array[c.c_double]
-    high_world: c.Array[c.c_double]
-    _fields_ = [
-        ("voxel_count", c.c_uint64),
-        ("finite_count", c.c_uint64),
-        ("low", c.c_double),
-        ("high", c.c_double),
-        ("mean", c.c_double),
-        ("histogram", c.c_uint64 * 256),
-        ("spacing_world", c.c_double * 3),
-        ("low_world", c.c_double * 3),
-        ("high_world", c.c_double * 3),
-    ]
+    voxel_count: Annotated[int, c.c_uint64]
+    finite_count: Annotated[int, c.c_uint64]
+    low: Annotated[float, c.c_double]
+    high: Annotated[float, c.c_double]
+    mean: Annotated[float, c.c_double]
+    histogram: Annotated[c.Array[c.c_uint64], c.c_uint64 * 256]
+    spacing_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    low_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    high_world: Annotated[c.Array[c.c_double], c.c_double * 3]
 
 
+@_struct
 class ewa_voxels_info(c.Structure):
-    voxel_count: int
-    occupied_count: int
-    block_count: int
-    skipped_count: int
-    level_count: int
-    resident_bytes: int
+    voxel_count: Annotated[int, c.c_uint64]
+    occupied_count: Annotated[int, c.c_uint64]
+    block_count: Annotated[int, c.c_uint64]
+    skipped_count: Annotated[int, c.c_uint64]
+    level_count: Annotated[int, c.c_uint32]
+    resident_bytes: Annotated[int, c.c_size_t]
     bounds: ewa_bounds
-    spacing_world: float
-    _fields_ = [
-        ("voxel_count", c.c_uint64),
-        ("occupied_count", c.c_uint64),
-        ("block_count", c.c_uint64),
-        ("skipped_count", c.c_uint64),
-        ("level_count", c.c_uint32),
-        ("resident_bytes", c.c_size_t),
-        ("bounds", ewa_bounds),
-        ("spacing_world", c.c_double),
-    ]
+    spacing_world: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_voxels_options(c.Structure):
-    struct_size: int
-    level_count: int
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("level_count", c.c_uint32),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    level_count: Annotated[int, c.c_uint32]
 
 
+@_struct
 class ewa_depth_image(c.Structure):
     camera: ewa_camera
-    depth: int | None
-    depth_type: int
-    depth_stride_bytes: int
-    kind: int
-    depth_scale: float
-    baseline_world: float
-    disparity_offset_px: float
-    color: int | None
-    color_type: int
-    color_channel_count: int
-    color_stride_bytes: int
-    _fields_ = [
-        ("camera", ewa_camera),
-        ("depth", c.c_void_p),
-        ("depth_type", c.c_int),
-        ("depth_stride_bytes", c.c_size_t),
-        ("kind", c.c_int),
-        ("depth_scale", c.c_double),
-        ("baseline_world", c.c_double),
-        ("disparity_offset_px", c.c_double),
-        ("color", c.c_void_p),
-        ("color_type", c.c_int),
-        ("color_channel_count", c.c_uint32),
-        ("color_stride_bytes", c.c_size_t),
-    ]
+    depth: Annotated[Optional[int], c.c_void_p]
+    depth_type: Annotated[int, c.c_int]
+    depth_stride_bytes: Annotated[int, c.c_size_t]
+    kind: Annotated[int, c.c_int]
+    depth_scale: Annotated[float, c.c_double]
+    baseline_world: Annotated[float, c.c_double]
+    disparity_offset_px: Annotated[float, c.c_double]
+    color: Annotated[Optional[int], c.c_void_p]
+    color_type: Annotated[int, c.c_int]
+    color_channel_count: Annotated[int, c.c_uint32]
+    color_stride_bytes: Annotated[int, c.c_size_t]
 
 
+@_struct
 class ewa_warp_facts(c.Structure):
-    pixel_count: int
-    sample_count: int
-    flying_count: int
-    take_s: float
-    _fields_ = [
-        ("pixel_count", c.c_uint64),
-        ("sample_count", c.c_uint64),
-        ("flying_count", c.c_uint64),
-        ("take_s", c.c_double),
-    ]
+    pixel_count: Annotated[int, c.c_uint64]
+    sample_count: Annotated[int, c.c_uint64]
+    flying_count: Annotated[int, c.c_uint64]
+    take_s: Annotated[float, c.c_double]
 
 
+@_struct
 class ewa_warp_options(c.Structure):
-    struct_size: int
-    cutoff: float
-    radius_spacings: float
-    depth_jump: float
-    depth_noise: float
-    drop_flying: bool
-    nearest_world: float
-    farthest_world: float
-    _fields_ = [
-        ("struct_size", c.c_size_t),
-        ("cutoff", c.c_double),
-        ("radius_spacings", c.c_double),
-        ("depth_jump", c.c_double),
-        ("depth_noise", c.c_double),
-        ("drop_flying", c.c_bool),
-        ("nearest_world", c.c_double),
-        ("farthest_world", c.c_double),
-    ]
+    struct_size: Annotated[int, c.c_size_t]
+    cutoff: Annotated[float, c.c_double]
+    radius_spacings: Annotated[float, c.c_double]
+    depth_jump: Annotated[float, c.c_double]
+    depth_noise: Annotated[float, c.c_double]
+    drop_flying: Annotated[bool, c.c_bool]
+    nearest_world: Annotated[float, c.c_double]
+    farthest_world: Annotated[float, c.c_double]
 
 
 #: Tables of options that the library exports.
