@@ -17,6 +17,7 @@
 
 #include "defaults.h"
 #include "ewa/ewa.h"
+#include "owned.h"
 
 /// A test, which RUN_TESTS runs, in the order in which a file has them: TEST(name) { ... }, with `state` as cmocka hands it over.
 #define TEST(name) TEST_WITHIN(name, NULL, NULL)
@@ -34,11 +35,20 @@
 #define TEST_ON(name, threads)                                                                                          \
     static void name##_on(ewa_context *context);                                                                        \
     TEST(name) {                                                                                                        \
-        ewa_context *context = check_context(threads, NULL);                                                            \
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);                                 \
         name##_on(context);                                                                                             \
-        ewa_context_destroy(&context);                                                                                  \
     }                                                                                                                   \
     static void name##_on(ewa_context *context)
+
+/// The same, and `log` keeps the last message of the context.
+#define TEST_LOGGED(name, threads)                                                                                      \
+    static void name##_logged(ewa_context *context, check_log *log);                                                    \
+    TEST(name) {                                                                                                        \
+        check_log log = {.count = 0};                                                                                   \
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, &log);                                 \
+        name##_logged(context, &log);                                                                                   \
+    }                                                                                                                   \
+    static void name##_logged(ewa_context *context, check_log *log)
 
 /// Runs the tests of a file between `set_up` and `tear_down` of all, which may be NULL; gives how many failed.
 #define RUN_TESTS(set_up, tear_down) _cmocka_run_group_tests("tests", check_tests, check_test_count, set_up, tear_down)

@@ -102,12 +102,13 @@ static void hold(const char *name, const double *is, const double *wanted, size_
 /// Every number is that of the reference.
 TEST(test_reference) {
     (void)state;
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     for (size_t n = 0; n < 2 * (sizeof KINDS / sizeof KINDS[0]); n++) {
         const uint32_t kind = KINDS[n / 2];
         print_message("kind %#x%s\n", kind, n % 2 ? ", colours alone" : "");
+        OWNED(adjoint_scene_free)
         adjoint_scene *s = adjoint_scene_make(context, kind, 400, 70, kind & ADJOINT_EDGES ? 2 : 5, n / 2);
-        backward b = make(s);
+        OWNED(drop) backward b = make(s);
         if (n % 2) leave_colors(&b);
         assert_int_equal(run(&b, s->cloud), EWA_OK);
         ewa_reference_sets *sets;
@@ -119,7 +120,7 @@ TEST(test_reference) {
             for (uint32_t c = 0; c < 3; c++) cotangent[i].normal[c] = (double)b.normal[3 * i + c];
             cotangent[i].depth = (double)b.depth[i], cotangent[i].coverage = (double)b.coverage[i];
         }
-        ewa_reference_point_cotangent *points = zeroed(s->count, sizeof *points);
+        OWNED(check_free) ewa_reference_point_cotangent *points = zeroed(s->count, sizeof *points);
         double camera[EWA_CAMERA_NUMBERS];
         assert_int_equal(ewa_reference_sets_pull_back(sets, s->cloud, &s->camera, cotangent, points, camera), EWA_OK);
         const size_t stride = sizeof *points / sizeof(double);
@@ -135,11 +136,8 @@ TEST(test_reference) {
         hold("focal", b.camera.focal_px, camera + 6, 2, 2, 1);
         hold("principal", b.camera.principal_px, camera + 8, 2, 2, 1);
         ewa_reference_sets_destroy(&sets);
-        free(cotangent), free(points);
-        drop(&b);
-        adjoint_scene_free(&s);
+        free(cotangent);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes for one to five threads, every instruction set, points in another order, and tiles of other sizes.
@@ -150,13 +148,14 @@ TEST(test_same_bytes) {
     static const uint32_t tiles[RUNS] = {16, 16, 16, 16, 16, 16, 5, 32, 64, 16};
     static const uint32_t masks[RUNS] = {~0u, ~0u, 0, EWA_CPU_AVX2, ~0u, ~0u, 0, ~0u, EWA_CPU_AVX2, ~0u};
     for (size_t k = 0; k < 2 * (sizeof KINDS / sizeof KINDS[0]); k++) {
-        backward first = {.scene = NULL};
+        OWNED(drop) backward first = {.scene = NULL};
         for (int n = 0; n < RUNS; n++) {
-            ewa_context *context = check_context_of(threads[n], masks[n]);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context_of(threads[n], masks[n]);
+            OWNED(adjoint_scene_free)
             adjoint_scene *s = adjoint_scene_make(context, KINDS[k / 2], COUNT, 130, 4, k / 2);
             uint64_t order[COUNT];
             for (uint64_t i = 0; i < COUNT; i++) order[i] = n >= 5 ? (i * 1399 + 77) % COUNT : i;
-            ewa_cloud *cloud = NULL;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
             assert_int_equal(ewa_cloud_select(s->cloud, order, COUNT, &cloud), EWA_OK);
             backward b = make(s);
             if (k % 2) leave_colors(&b);
@@ -174,11 +173,7 @@ TEST(test_same_bytes) {
             assert_memory_equal(&b.camera, &first.camera, sizeof b.camera);
             assert_memory_equal(b.picture, first.picture, 4 * b.pixel_count * sizeof(double));
             if (n > 0) drop(&b);
-            ewa_cloud_destroy(&cloud);
-            adjoint_scene_free(&s);
-            ewa_context_destroy(&context);
         }
-        drop(&first);
     }
 }
 
@@ -229,28 +224,28 @@ TEST(test_types) {
 /// packets round. <A c, r> = <c, A' r>, A c being that picture without its background.
 TEST(test_picture) {
     (void)state;
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
-        adjoint_scene *s = adjoint_scene_make(context, KINDS[k], 400, 70, 5, k);
+        OWNED(adjoint_scene_free) adjoint_scene *s = adjoint_scene_make(context, KINDS[k], 400, 70, 5, k);
         for (int c = 0; c < 4; c++) s->options.background[c] = 0;
         for (uint32_t i = 0; i < 4 * s->count; i++) s->color[i] = fmax(s->color[i], 0);
-        backward b = make(s);
+        OWNED(drop) backward b = make(s);
         for (uint32_t i = 0; i < b.pixel_count; i++) b.rgba[4 * i + 3] = 0; // alpha does not depend on colours
         memset(b.depth, 0, b.pixel_count * sizeof *b.depth);
         assert_int_equal(run(&b, s->cloud), EWA_OK);
-        double *color = zeroed(3 * s->count, sizeof *color);
+        OWNED(check_free) double *color = zeroed(3 * s->count, sizeof *color);
         const ewa_frame_cotangent cotangent = {.rgba = b.rgba};
         const ewa_gradient colors = {.color = color, .rgba = b.picture}; // else the pipeline gives them: test gather
         assert_int_equal(ewa_render_backward(s->cloud, NULL, s->unit_coverage, &s->camera, &s->options,
                                              &cotangent, &colors),
                          EWA_OK);
         hold("colors", color, b.color, 3, 3, s->count);
-        float *rgba = zeroed(4 * b.pixel_count, sizeof *rgba);
+        OWNED(check_free) float *rgba = zeroed(4 * b.pixel_count, sizeof *rgba);
         const ewa_frame frame = {.rgba = rgba};
         ewa_surfels_info info;
-        ewa_surfels *surfels = check_surfels(s->cloud, NULL);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(s->cloud, NULL);
         ewa_surfels_describe(surfels, &info);
-        ewa_renderer *renderer = check_renderer(context);
+        OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
         assert_int_equal(ewa_render(renderer, surfels, &s->camera, &s->options, &frame, NULL), EWA_OK);
         s->unit_coverage = info.unit_coverage;
         assert_int_equal(run(&b, s->cloud), EWA_OK);
@@ -269,22 +264,16 @@ TEST(test_picture) {
                       fabs(forward - back) / size);
         assert_true(far <= 4 * b.pixel_count / 200);
         assert_true(fabs(forward - back) <= 1e-3 * size);
-        ewa_renderer_destroy(&renderer);
-        ewa_surfels_destroy(&surfels);
-        free(rgba), free(color);
-        drop(&b);
-        adjoint_scene_free(&s);
     }
-    ewa_context_destroy(&context);
 }
 
 /// What is wrong is told with names and numbers; nothing is left behind when memory ends.
 TEST(test_errors) {
     (void)state;
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    adjoint_scene *s = adjoint_scene_make(context, ADJOINT_PLAIN, 50, 40, 5, 1);
-    backward b = make(s);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(adjoint_scene_free) adjoint_scene *s = adjoint_scene_make(context, ADJOINT_PLAIN, 50, 40, 5, 1);
+    OWNED(drop) backward b = make(s);
     b.rgba[4 * (3 * 40 + 7) + 2] = NAN;
     assert_int_equal(run(&b, s->cloud), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "number 2 of the rgba cotangent at pixel (7, 3) is nan"));
@@ -325,9 +314,6 @@ TEST(test_errors) {
     s->camera = camera;
     assert_int_equal(ewa_render_backward(s->cloud, NULL, 0.5, &s->camera, NULL, NULL, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_backward(NULL, NULL, 0.5, &s->camera, NULL, NULL, NULL), EWA_ERROR_ARGUMENT);
-    drop(&b);
-    adjoint_scene_free(&s);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_memory) {

@@ -164,7 +164,7 @@ static const uint32_t KINDS[] = {
 /// Every number of every surfel, and of the camera, in scenes of all kinds.
 TEST(test_differences) {
     (void)state;
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
         print_message("kind %#x\n", KINDS[k]);
         derivative *d = start(context, KINDS[k]);
@@ -183,13 +183,12 @@ TEST(test_differences) {
         hold_camera(d);
         finish(d);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The picture at the sets is that of the reference.
 TEST(test_picture) {
     (void)state;
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
         derivative *d = start(context, KINDS[k]);
         adjoint_scene *s = d->scene;
@@ -212,13 +211,12 @@ TEST(test_picture) {
         free(rgba), free(depth), free(normal), free(coverage);
         finish(d);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Colours without opacity are linear: <A c, r> = <c, A' r>, A being the picture without its background.
 TEST(test_transpose) {
     (void)state;
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
         derivative *d = start(context, KINDS[k]);
         adjoint_scene *s = d->scene;
@@ -233,7 +231,6 @@ TEST(test_transpose) {
         assert_true(fabs(all - loss(d, &s->camera) - product) <= 1e-12 * size);
         finish(d);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Splats at one pixel, of all shares, that their lines keep about one side: a half of them on the first of two
@@ -264,8 +261,8 @@ static void random_pixel(check_random *random, ewa_reference_splat *splats, ewa_
 /// The pixel alone: every weight, in many random pixels, so that every branch of what covers is gone through.
 TEST(test_pixels) {
     (void)state;
-    ewa_context *context = check_context(1, NULL);
-    adjoint_scene *s = adjoint_scene_make(context, ADJOINT_LIGHTS, 1, SIDE, 4, 1);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+    OWNED(adjoint_scene_free) adjoint_scene *s = adjoint_scene_make(context, ADJOINT_LIGHTS, 1, SIDE, 4, 1);
     ewa_reference_frame frame;
     assert_int_equal(ewa_reference_frame_make(s->cloud, NULL, s->unit_coverage, &s->camera, &s->options, &frame),
                      EWA_OK);
@@ -308,8 +305,6 @@ TEST(test_pixels) {
     // Where a step crosses a kink.
     print_message("%d of %d weights off\n", off, PIXELS * FRAGMENTS);
     assert_true(off <= 4);
-    adjoint_scene_free(&s);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -69,11 +69,9 @@ static ewa_status back(way_back *w) {
 static void draw(way_back *w, ewa_context *context) {
     const adjoint_scene *s = w->scene;
     const ewa_frame frame = {.rgba = w->picture};
-    ewa_surfels *surfels = check_surfels(s->cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(s->cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &s->camera, &s->options, &frame, NULL), EWA_OK);
-    ewa_surfels_destroy(&surfels);
-    ewa_renderer_destroy(&renderer);
 }
 
 /// What the loss changes of a picture's colours.
@@ -87,9 +85,9 @@ static double loss(const way_back *w) {
 /// <A c, r> = <c, A' r>, A c being the picture that ewa_render() draws.
 TEST(test_transpose) {
     (void)state;
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < KIND_COUNT; k++) {
-        way_back w = make(context, KINDS[k], 3000, 160);
+        OWNED(drop) way_back w = make(context, KINDS[k], 3000, 160);
         const adjoint_scene *s = w.scene;
         assert_int_equal(back(&w), EWA_OK);
         draw(&w, context);
@@ -101,9 +99,7 @@ TEST(test_transpose) {
         print_message("%#x: %.9g and %.9g, %.2g of the sizes apart\n", KINDS[k], loss(&w), backward,
                       fabs(loss(&w) - backward) / size);
         assert_true(fabs(loss(&w) - backward) <= (KINDS[k] & ADJOINT_NEAR ? 5e-6 : 1e-6) * size);
-        drop(&w);
     }
-    ewa_context_destroy(&context);
 }
 
 static double *replaced(ewa_cloud *cloud, const char *name, uint32_t component_count) {
@@ -115,11 +111,11 @@ static double *replaced(ewa_cloud *cloud, const char *name, uint32_t component_c
 /// The cloud with the numbers that packets keep of it.
 static ewa_cloud *as_drawn(const ewa_cloud *given) {
     const uint64_t count = ewa_cloud_point_count(given);
-    uint64_t *all = calloc(count, sizeof *all);
+    OWNED(check_free) uint64_t *all = calloc(count, sizeof *all);
     assert_non_null(all);
     for (uint64_t i = 0; i < count; i++) all[i] = i;
     ewa_cloud *cloud = NULL;
-    ewa_surfels *surfels = NULL;
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = NULL;
     assert_int_equal(ewa_cloud_select(given, all, count, &cloud), EWA_OK);
     assert_int_equal(ewa_surfels_create_kept(given, NULL, &surfels), EWA_OK);
     const bool ellipses = ewa_cloud_find(cloud, EWA_TANGENT_U);
@@ -145,8 +141,6 @@ static ewa_cloud *as_drawn(const ewa_cloud *given) {
         for (int c = 0; c < 4; c++) color[4 * point + (size_t)c] = c < 3 ? s.color[c] : s.opacity;
         if (curvature) curvature[point] = ewa_packet_decode_curvature(surfels->curvatures[i]) / surfels->unit;
     }
-    ewa_surfels_destroy(&surfels);
-    free(all);
     return cloud;
 }
 
@@ -155,9 +149,9 @@ static ewa_cloud *as_drawn(const ewa_cloud *given) {
 TEST(test_each) {
     (void)state;
     enum { WORST = 24 };
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < KIND_COUNT; k++) {
-        way_back w = make(context, KINDS[k], 3000, 160);
+        OWNED(drop) way_back w = make(context, KINDS[k], 3000, 160);
         adjoint_scene *s = w.scene;
         assert_int_equal(back(&w), EWA_OK);
         double *wanted = calloc(3 * s->count, sizeof *wanted), largest = 0, off = 0, worst = 0;
@@ -179,7 +173,7 @@ TEST(test_each) {
             off = fmax(off, difference), far += difference > 1e-4;
         }
         draw(&w, context);
-        float *first = calloc(4 * w.pixel_count, sizeof *first);
+        OWNED(check_free) float *first = calloc(4 * w.pixel_count, sizeof *first);
         assert_non_null(first);
         memcpy(first, w.picture, 4 * w.pixel_count * sizeof *first);
         for (uint32_t n = 0; n < WORST; n++) {
@@ -204,10 +198,8 @@ TEST(test_each) {
                              !(KINDS[k] & (ADJOINT_CLIPPED | ADJOINT_SECTION | ADJOINT_TRANSPARENT));
         assert_true(decided ? off <= 1e-4 : far <= 3 * s->count / 100);
         assert_true(worst <= 5e-5); // pictures are rounded to whole numbers of units
-        free(wanted), free(first);
-        drop(&w);
+        free(wanted);
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_surfels *surfels_of(const ewa_cloud *cloud) {
@@ -223,16 +215,16 @@ TEST(test_same_bytes) {
     static const uint32_t threads[RUNS] = {1, 2, 3, 4, 5, 1, 1, 2, 2}, tiles[RUNS] = {64, 64, 64, 64, 64, 64, 64, 16, 128};
     static const uint32_t masks[RUNS] = {~0u, ~0u, ~0u, ~0u, ~0u, 0, EWA_CPU_AVX2, ~0u, ~0u};
     for (size_t k = 0; k < KIND_COUNT; k++) {
-        double *first = NULL;
+        OWNED(check_free) double *first = NULL;
         for (int n = 0; n < RUNS; n++) {
-            ewa_context *context = check_context_of(threads[n], masks[n]);
-            way_back w = make(context, KINDS[k], COUNT, 200);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context_of(threads[n], masks[n]);
+            OWNED(drop) way_back w = make(context, KINDS[k], COUNT, 200);
             const adjoint_scene *s = w.scene;
             uint64_t order[COUNT];
             for (uint64_t i = 0; i < COUNT; i++) order[i] = n % 2 ? (i * 1399 + 77) % COUNT : i;
-            ewa_cloud *cloud = NULL;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
             assert_int_equal(ewa_cloud_select(s->cloud, order, COUNT, &cloud), EWA_OK);
-            ewa_surfels *surfels = surfels_of(cloud);
+            OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud);
             bool any;
             const ewa_gather_request request = {.surfels = surfels, .point_count = COUNT, .camera = s->camera,
                                                 .options = s->options, .tile_px = tiles[n], .rgba = w.rgba,
@@ -246,12 +238,7 @@ TEST(test_same_bytes) {
             }
             for (uint64_t i = 0; i < COUNT; i++)
                 assert_memory_equal(w.color + 3 * i, first + 3 * order[i], 3 * sizeof *first);
-            ewa_surfels_destroy(&surfels);
-            ewa_cloud_destroy(&cloud);
-            drop(&w);
-            ewa_context_destroy(&context);
         }
-        free(first);
     }
 }
 
@@ -264,18 +251,18 @@ TEST(test_filled) {
                                      ADJOINT_UNLIT | ADJOINT_NEAR | ADJOINT_BILLBOARDS};
     static const uint32_t threads[RUNS] = {1, 2, 3, 1, 1, 2}, masks[RUNS] = {~0u, ~0u, ~0u, 0, EWA_CPU_AVX2, ~0u};
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        double *first = NULL;
+        OWNED(check_free) double *first = NULL;
         for (int n = 0; n < RUNS; n++) {
-            ewa_context *context = check_context_of(threads[n], masks[n]);
-            way_back w = make(context, kinds[k], COUNT, 160);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context_of(threads[n], masks[n]);
+            OWNED(drop) way_back w = make(context, kinds[k], COUNT, 160);
             const adjoint_scene *s = w.scene;
             w.scene->options.edge_layers = 1; // nothing behind
-            ewa_surfels *surfels = surfels_of(s->cloud);
+            OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(s->cloud);
             const uint32_t pixels = w.pixel_count;
             float *shown = calloc(4 * pixels, sizeof *shown), *weights = calloc(pixels, sizeof *weights);
             float *weighted = calloc(4 * pixels, sizeof *weighted), *single = calloc(4 * pixels, sizeof *single);
             double *x = calloc(3 * COUNT, sizeof *x), *sums = calloc(3 * COUNT, sizeof *sums);
-            double *again = calloc(3 * COUNT, sizeof *again);
+            OWNED(check_free) double *again = calloc(3 * COUNT, sizeof *again);
             assert_true(shown && weights && weighted && single && x && sums && again);
             for (uint32_t i = 0; i < 3 * COUNT; i++) x[i] = s->color[i / 3 * 4 + i % 3];
             for (uint32_t i = 0; i < pixels; i++) weights[i] = fabsf(w.rgba[4 * i]);
@@ -333,12 +320,8 @@ TEST(test_filled) {
                 free(unit);
             }
             ewa_gather_room_free(context, &room);
-            free(shown), free(weights), free(weighted), free(single), free(x), free(sums), free(again);
-            ewa_surfels_destroy(&surfels);
-            drop(&w);
-            ewa_context_destroy(&context);
+            free(shown), free(weights), free(weighted), free(single), free(x), free(sums);
         }
-        free(first);
     }
 }
 
@@ -346,7 +329,7 @@ TEST(test_filled) {
 /// records than are kept.
 TEST(test_sum) {
     (void)state;
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     enum { COUNT = 300000, SIDE = 64 };
     static const float z[2] = {0, 0.5f};
     for (int many = 0; many < 2; many++) {
@@ -386,17 +369,17 @@ TEST(test_sum) {
         ewa_cloud_destroy(&cloud);
         free(rgba), free(color);
     }
-    ewa_context_destroy(&context);
 }
 
 /// What the pipeline does not go back from is done in double precision, as all is that comes with more than colours.
 TEST(test_roads) {
     (void)state;
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     static const uint32_t kinds[] = {ADJOINT_LIGHTS, ADJOINT_PLAIN};
     for (int k = 0; k < 2; k++) {
-        way_back w = make(context, kinds[k], 500, 80);
+        OWNED(drop) way_back w = make(context, kinds[k], 500, 80);
         adjoint_scene *s = w.scene;
+        OWNED(check_free)
         double *exact = calloc(3 * s->count, sizeof *exact), *picture = calloc(4 * w.pixel_count, sizeof *picture);
         assert_true(exact && picture);
         const ewa_frame_cotangent cotangent = {.rgba = w.rgba};
@@ -409,17 +392,14 @@ TEST(test_roads) {
         assert_int_equal(ewa_render_backward(s->cloud, NULL, 0.5, &s->camera, &s->options, &cotangent, &alone), EWA_OK);
         const bool same = memcmp(w.color, exact, 3 * s->count * sizeof *exact) == 0;
         assert_true(same == (kinds[k] == ADJOINT_LIGHTS));
-        free(exact), free(picture);
-        drop(&w);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_errors) {
     (void)state;
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    way_back w = make(context, ADJOINT_PLAIN, 50, 40);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(drop) way_back w = make(context, ADJOINT_PLAIN, 50, 40);
     adjoint_scene *s = w.scene;
     const ewa_render_options good = s->options;
     s->options.kernel = EWA_KERNEL_RAYCAST;
@@ -440,8 +420,6 @@ TEST(test_errors) {
     log.count = 0;
     assert_int_equal(back(&w), EWA_OK);
     assert_non_null(strstr(log.text, "none of 50 surfels is in the picture of 40 x 37 pixels"));
-    drop(&w);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_memory) {

@@ -41,11 +41,10 @@ TEST(test_overflowing_allocation_is_a_message) {
     WITH_DEFAULTS(ewa_context_options, options);
     options.message = keep_text;
     options.message_user = text;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     assert_null(ewa_allocate(context, SIZE_MAX / 2, 16));
     assert_non_null(strstr(text, "address space"));
-    ewa_context_destroy(&context);
 }
 
 static ewa_context *limited(const ewa_limits *limits, bool untrusted, char text[256]) {
@@ -63,7 +62,7 @@ static ewa_context *limited(const ewa_limits *limits, bool untrusted, char text[
 /// One budget for blocks, buffers and what libraries take: what is given back can be had again.
 TEST(test_memory_is_counted) {
     char text[256] = "";
-    ewa_context *context = limited(&(ewa_limits){.max_memory_bytes = 1000}, false, text);
+    OWNED(ewa_context_destroy) ewa_context *context = limited(&(ewa_limits){.max_memory_bytes = 1000}, false, text);
     assert_int_equal(ewa_memory_left(context), 1000);
     void *first = ewa_allocate(context, 6, 100), *none = ewa_allocate(context, 401, 1);
     assert_non_null(first);
@@ -91,12 +90,11 @@ TEST(test_memory_is_counted) {
     assert_int_equal(ewa_memory_left(context), 999);
     ewa_release(context, empty, 0, 8);
     assert_int_equal(ewa_memory_left(context), 1000);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_limits) {
     char text[256] = "";
-    ewa_context *context = limited(&(ewa_limits){0}, false, text);
+    OWNED(ewa_context_destroy) ewa_context *context = limited(&(ewa_limits){0}, false, text);
     const ewa_limits usual = *ewa_context_limits(context);
     assert_int_equal(usual.max_points, 4294967279u);
     assert_int_equal(usual.max_image_side, 65536);
@@ -117,7 +115,6 @@ TEST(test_limits) {
     options.limits.max_image_side = 77;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     assert_int_equal(ewa_context_limits(context)->max_image_side, 77);
-    ewa_context_destroy(&context);
 }
 
 static void wait_a_little(void *data, uint32_t index, uint32_t worker) {
@@ -129,7 +126,7 @@ static void wait_a_little(void *data, uint32_t index, uint32_t worker) {
 
 TEST(test_time_is_over) {
     char text[256] = "";
-    ewa_context *context = limited(&(ewa_limits){.max_seconds = 0.05}, false, text);
+    OWNED(ewa_context_destroy) ewa_context *context = limited(&(ewa_limits){.max_seconds = 0.05}, false, text);
     atomic_uint done = 0;
     assert_int_equal(ewa_progress(context, "begin", 0), EWA_OK);
     assert_int_equal(ewa_parallel_stoppable(context, "wait", wait_a_little, &done, 1000), EWA_CANCELLED);
@@ -138,7 +135,6 @@ TEST(test_time_is_over) {
     text[0] = 0;
     assert_int_equal(ewa_progress(context, "further", 0), EWA_CANCELLED);
     assert_string_equal(text, ""); // said once
-    ewa_context_destroy(&context);
 }
 
 /// A run of tasks that go on until they are told not to, and a callback that stops it once all have begun.
@@ -200,15 +196,13 @@ static void count_hit(void *data, uint32_t index, uint32_t worker) {
 TEST(test_parallel_visits_each_index_once) {
     static const uint32_t counts[] = {1, 2, 7, 32};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
-        ewa_context *context = check_context(counts[c], NULL);
-        tally *t = calloc(1, sizeof *t);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(counts[c], NULL);
+        OWNED(check_free) tally *t = calloc(1, sizeof *t);
         t->workers = ewa_context_worker_count(context);
         for (int round = 0; round < 50; round++) ewa_parallel(context, count_hit, t, 1000);
         ewa_parallel(context, count_hit, t, 0);
         for (int i = 0; i < 1000; i++) assert_int_equal(t->hits[i], 50);
         assert_int_equal(t->bad_worker, 0);
-        free(t);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -231,7 +225,7 @@ static void *run_again(void *data) {
 }
 
 TEST(test_runs_beside_runs) {
-    nested_run *run = calloc(1, sizeof *run);
+    OWNED(check_free) nested_run *run = calloc(1, sizeof *run);
     run->context = check_context(4, NULL);
     for (int i = 0; i < 64; i++) run->inner[i].workers = 4;
     ewa_parallel(run->context, run_inner, run, 64);
@@ -245,7 +239,6 @@ TEST(test_runs_beside_runs) {
         for (int k = 0; k < 100; k++) assert_int_equal(run->inner[i].hits[k], 201);
     for (int i = 0; i < 64; i++) assert_int_equal(run->inner[i].bad_worker, 0);
     ewa_context_destroy(&run->context);
-    free(run);
 }
 
 TEST(test_split_covers) {

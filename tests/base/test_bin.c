@@ -69,7 +69,7 @@ TEST(test_lists) {
     static scene s;
     check_random random = {5};
     for (int w = 0; w < 3; w++) {
-        ewa_context *context = check_context(workers[w], NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(workers[w], NULL);
         ewa_bin_lists lists = {0};
         for (int g = 0; g < 4; g++)
             for (int c = 0; c < 7; c++) {
@@ -77,7 +77,6 @@ TEST(test_lists) {
                 hold(context, &lists, &s, grids[g][0], grids[g][1]);
             }
         ewa_bin_lists_free(context, &lists);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -87,7 +86,7 @@ TEST(test_many_lists) {
     static const uint32_t workers[] = {1, 2, 7}, counts[SETS] = {0, 1, 700, 0, 17, 16, MAXIMUM, 33, 0};
     static scene scenes[SETS];
     for (int w = 0; w < 3; w++) {
-        ewa_context *context = check_context(workers[w], NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(workers[w], NULL);
         check_random random = {8};
         ewa_bin_lists lists[SETS] = {0};
         ewa_bin_request requests[SETS];
@@ -103,7 +102,6 @@ TEST(test_many_lists) {
         }
         for (uint32_t i = 0; i < SETS; i++) ewa_bin_lists_free(context, &lists[i]);
         ewa_buffer_free(context, &room);
-        ewa_context_destroy(&context);
     }
 }
 

@@ -43,7 +43,7 @@ TEST(test_turntable) {
         for (int i = 0; i < 7; i++) {
             char name[32];
             snprintf(name, sizeof name, "f_%02d.exr", i);
-            ewa_image image = load(name);
+            OWNED(ewa_image_free) ewa_image image = load(name);
             double border = 0;
             uint32_t low_x = 96, high_x = 0, low_y = 72, high_y = 0;
             for (uint32_t y = 0; y < 72; y++)
@@ -58,7 +58,6 @@ TEST(test_turntable) {
                 }
             assert_true(border == 0);
             nearest = fmin(nearest, fmin(fmin(low_x, 95 - high_x), fmin(low_y, 71 - high_y)));
-            ewa_image_free(&image);
         }
         assert_true(nearest < 14);
     }
@@ -218,15 +217,13 @@ TEST(test_real_film) {
     run_done("ewa render torus.ply -o films/b.mp4 --turntable 4 --size 128x96 --quality 100 && "
              "ewa render torus.ply -o f_%%d.png --turntable 4 --size 128x96 && "
              "ffmpeg -v error -i films/b.mp4 -vf 'select=eq(n\\,2)' -frames:v 1 back.png");
-    ewa_image film = load("back.png"), frame = load("f_2.png");
+    OWNED(ewa_image_free) ewa_image film = load("back.png"), frame = load("f_2.png");
     double mean = 0;
     for (size_t i = 0; i < 128 * 96 * 3; i++)
         mean += fabs((double)ewa_srgb_from_linear(film.pixels[i]) -
                      (double)ewa_srgb_from_linear(frame.pixels[i])) /
                 (128 * 96 * 3);
     assert_true(mean < 0.02);
-    ewa_image_free(&film);
-    ewa_image_free(&frame);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -22,7 +22,7 @@ static const corner upper_middle = {0.2, 0, 0.8, 0.12}, lower_left = {0, 0.75, 0
 
 /// How many pixels within a box differ between two pictures, and beyond it.
 static void count_changes(const char *a, const char *b, const corner *box, size_t *inside, size_t *outside) {
-    ewa_image one = load(a), other = load(b);
+    OWNED(ewa_image_free) ewa_image one = load(a), other = load(b);
     assert_int_equal(one.width_px, other.width_px);
     *inside = *outside = 0;
     for (uint32_t y = 0; y < one.height_px; y++) {
@@ -34,7 +34,6 @@ static void count_changes(const char *a, const char *b, const corner *box, size_
             ++*(in ? inside : outside);
         }
     }
-    ewa_image_free(&one), ewa_image_free(&other);
 }
 
 /// Each piece changes its part of the picture and nothing else; without one, and by default, the picture is as it was.
@@ -112,7 +111,7 @@ static void write_stripes(const char *name, const char *attribute, const char *c
 
 /// Checks the colours in the middle of the four stripes.
 static void check_stripes(const char *picture, const uint8_t srgb[4][3]) {
-    ewa_image image = load(picture);
+    OWNED(ewa_image_free) ewa_image image = load(picture);
     for (uint32_t k = 0; k < 4; k++) {
         const uint32_t x = image.width_px * (2 * k + 1) / 8;
         const float *pixel =
@@ -121,7 +120,6 @@ static void check_stripes(const char *picture, const uint8_t srgb[4][3]) {
             assert_true((int)(255 * ewa_srgb_from_linear(pixel[c]) + 0.5f) - srgb[k][c] <= 1 &&
                         srgb[k][c] - (int)(255 * ewa_srgb_from_linear(pixel[c]) + 0.5f) <= 1);
     }
-    ewa_image_free(&image);
 }
 
 /// An attribute that is called so has the colours of classes, unless a colormap or a range is asked for; others have

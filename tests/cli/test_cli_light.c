@@ -44,10 +44,9 @@ static int leave(void **state) {
 
 /// Red, linear, at a pixel of a .pfm picture.
 static float red_at(const char *name, uint32_t x, uint32_t y) {
-    ewa_image image = {0};
+    OWNED(ewa_image_free) ewa_image image = {0};
     assert_int_equal(ewa_image_load(context, scratch_path(name), &image), EWA_OK);
     const float red = image.pixels[3 * (y * image.width_px + x)];
-    ewa_image_free(&image);
     return red;
 }
 

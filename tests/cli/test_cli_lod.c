@@ -90,7 +90,7 @@ TEST(test_info) {
 
 /// Mean square of the differences of two pictures' numbers, in 1/255 of white.
 static double mean_square(const char *a, const char *b) {
-    ewa_image first = load(a), second = load(b);
+    OWNED(ewa_image_free) ewa_image first = load(a), second = load(b);
     assert_true(first.width_px == second.width_px && first.height_px == second.height_px);
     double sum = 0;
     const size_t count = (size_t)first.width_px * first.height_px * first.channel_count;
@@ -98,8 +98,6 @@ static double mean_square(const char *a, const char *b) {
         const double off = 255 * ((double)first.pixels[i] - (double)second.pixels[i]);
         sum += off * off;
     }
-    ewa_image_free(&first);
-    ewa_image_free(&second);
     return sum / (double)count;
 }
 

@@ -77,7 +77,7 @@ TEST_WITHIN(test_formats, enter, NULL) {
 /// Whether two pictures differ by no more than what the last digits of a camera's place do: in one pixel of a
 /// hundred, by one level.
 static bool nearly_same(const char *first, const char *second) {
-    ewa_context *context;
+    OWNED(ewa_context_destroy) ewa_context *context;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     ewa_image images[2];
     assert_int_equal(ewa_image_load(context, scratch_path(first), &images[0]), EWA_OK);
@@ -93,7 +93,6 @@ static bool nearly_same(const char *first, const char *second) {
         maximum = fmax(maximum, fabs(a - b));
     }
     for (int i = 0; i < 2; i++) ewa_image_free(&images[i]);
-    ewa_context_destroy(&context);
     return 100 * differ <= count && maximum < 1.5;
 }
 

@@ -58,18 +58,17 @@ TEST(digests_are_those_of_the_standard) {
         sha256(known[i].text, strlen(known[i].text), digest);
         assert_memory_equal(digest, known[i].begin, 4);
     }
-    char *million = malloc(1000000);
+    OWNED(check_free) char *million = malloc(1000000);
     assert_non_null(million);
     memset(million, 'a', 1000000);
     sha256(million, 1000000, digest);
     assert_memory_equal(digest, ((const uint8_t[]){0xcd, 0xc7, 0x6e, 0x5c}), 4);
-    free(million);
 }
 
 TEST(a_page_is_whole_and_closed) {
     (void)state;
     run_done("ewa page torus.ply -o torus.html --assets assets");
-    char *page = read_text("torus.html");
+    OWNED(check_free) char *page = read_text("torus.html");
     // Nothing is asked of anybody, and only what belongs to the page runs.
     assert_null(strstr(page, "http:"));
     assert_null(strstr(page, "https:"));
@@ -89,14 +88,13 @@ TEST(a_page_is_whole_and_closed) {
     run_done("base64 -d torus.txt >again.ply && cmp again.ply torus.ply");
     take_part(page, "id=\"ewa-relaxed\">", "relaxed.txt");
     run_done("test \"$(base64 -d relaxed.txt)\" = relaxed");
-    free(page);
 }
 
 TEST(names_and_titles_are_text) {
     (void)state;
     run_done("cp torus.ply '<script>alert(1)<;script>\"&.ply'");
     run_done("ewa page '<script>alert(1)<;script>\"&.ply' -o named.html --assets assets");
-    char *page = read_text("named.html");
+    OWNED(check_free) char *page = read_text("named.html");
     assert_int_equal(count(page, "<script"), 6);
     assert_non_null(strstr(page, "data-name=\"_script_alert_1___script___.ply\""));
     assert_non_null(strstr(page, "<title>&lt;script&gt;alert(1)&lt;;script&gt;&quot;&amp;.ply</title>"));
@@ -105,7 +103,6 @@ TEST(names_and_titles_are_text) {
     page = read_text("titled.html");
     assert_int_equal(count(page, "</script>"), 6);
     assert_null(strstr(page, "<img"));
-    free(page);
 }
 
 /// What a page's folder shows is what the program draws of the files.

@@ -35,10 +35,9 @@ static int enter(void **state) {
                  "--save-camera c%d.json",
                  i, 90 * i + 25, i);
         snprintf(name, sizeof name, "c%d.json", i);
-        char *camera = read_text(name);
+        OWNED(check_free) char *camera = read_text(name);
         snprintf(cameras + strlen(cameras), sizeof cameras - strlen(cameras), "%s{\"file_path\": \"p%d.png\", %.*s", i ? ",\n" : "",
                  i, (int)strlen(camera) - 1, camera + 1);
-        free(camera);
     }
     strcat(cameras, "]");
     scratch_text("cameras.json", cameras);
@@ -171,8 +170,8 @@ TEST(test_masks) {
     photos_done("--cameras cameras.json -o a.ply --method mean");
     const uint64_t all = seen_points();
     run_done("mkdir -p masks partly");
-    ewa_context *context = check_context(1, NULL);
-    ewa_image mask;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_image_free) ewa_image mask;
     assert_int_equal(ewa_image_create(context, 90, 80, 1, &mask), EWA_OK);
     for (int half = 0; half < 2; half++) {
         for (int i = 0; i < 80 * 90; i++) mask.pixels[i] = half && i / 90 < 40;
@@ -197,8 +196,6 @@ TEST(test_masks) {
     assert_int_equal(ewa_image_save(&mask, scratch_path("partly/p2.png"), NULL), EWA_OK);
     assert_int_equal(run("ewa photos grey.ply --cameras cameras.json --masks partly -o a.ply --method mean"), 1);
     assert_non_null(strstr(last_run.err, "the mask is 9 x 8 pixels, its photograph 90 x 80"));
-    ewa_image_free(&mask);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(enter, NULL); }

@@ -81,15 +81,13 @@ TEST(test_digits) {
         write_points(p);
         char path[64];
         snprintf(path, sizeof path, "%s.xyz", names[p]);
-        char *wanted = read_places(path);
+        OWNED(check_free) char *wanted = read_places(path);
         for (size_t s = 1; s < sizeof suffixes / sizeof suffixes[0]; s++) {
             run_done("ewa convert %s.xyz -o there.%s && ewa convert there.%s -o back.xyz", names[p],
                      suffixes[s], suffixes[s]);
-            char *got = read_places("back.xyz");
+            OWNED(check_free) char *got = read_places("back.xyz");
             if (strcmp(wanted, got) != 0) fail_msg("%s by way of %s has other digits", names[p], suffixes[s]);
-            free(got);
         }
-        free(wanted);
     }
 }
 

@@ -25,7 +25,7 @@ static double share_over(const ewa_image *image, uint32_t channel, float thresho
 
 TEST(test_png) {
     run_done("ewa render ball.ply -o a.png --size 200x100");
-    ewa_image image = load("a.png");
+    OWNED(ewa_image_free) ewa_image image = load("a.png");
     assert_int_equal(image.width_px, 200);
     assert_int_equal(image.height_px, 100);
     assert_int_equal(image.channel_count, 3);
@@ -42,7 +42,6 @@ TEST(test_png) {
     run_done("ewa render ball.ply -o a.png --size 20x10 --background 0.5,0,1");
     image = load("a.png");
     assert_true(fabs(image.pixels[0] - ewa_linear_from_srgb(0.5f)) < 0.01 && image.pixels[1] == 0);
-    ewa_image_free(&image);
 }
 
 TEST(test_exr) {
@@ -69,6 +68,7 @@ TEST(test_exr) {
 TEST(test_planes) {
     run_done("ewa render ball.ply -o a.pfm --size 80x60 --aov depth=d.pfm,normal=n.exr,coverage=c.pfm "
              "--eye 0,-5,0 --up 0,0,1 --fov 30");
+    OWNED(ewa_image_free)
     ewa_image color = load("a.pfm"), depth = load("d.pfm"), normal = load("n.exr"), coverage = load("c.pfm");
     assert_int_equal(color.channel_count, 3);
     assert_int_equal(normal.channel_count, 3);
@@ -77,10 +77,6 @@ TEST(test_planes) {
     assert_true(isinf(depth.pixels[0]) && depth.pixels[0] > 0);
     assert_true(normal.pixels[3 * middle + 1] < -0.99f);
     assert_true(coverage.pixels[middle] > 0.6f && coverage.pixels[0] == 0);
-    ewa_image_free(&color);
-    ewa_image_free(&depth);
-    ewa_image_free(&normal);
-    ewa_image_free(&coverage);
 }
 
 TEST(test_camera) {
@@ -115,7 +111,7 @@ TEST(test_views) {
     for (size_t i = 0; i < 14; i++) {
         run_done("ewa render torus.ply -o v.exr --size 64x48 --background transparent --view %s %s",
                  views[i % 7], projections[i / 7]);
-        ewa_image image = load("v.exr");
+        OWNED(ewa_image_free) ewa_image image = load("v.exr");
         assert_true(share_over(&image, 3, 0.5f) > 0.1);
         float border = 0;
         for (uint32_t x = 0; x < 64; x++)
@@ -123,7 +119,6 @@ TEST(test_views) {
         for (uint32_t y = 0; y < 48; y++)
             border += image.pixels[4 * (64 * y) + 3] + image.pixels[4 * (64 * y + 63) + 3];
         assert_true(border == 0);
-        ewa_image_free(&image);
     }
 }
 
@@ -148,9 +143,8 @@ TEST(test_far_points) {
     run_done("ewa convert ball.ply far.ply -o both.ply");
     assert_int_equal(run("ewa render both.ply -o a.exr --size 64x48 --background transparent"), 0);
     assert_non_null(strstr(last_run.err, "ewa: both.ply: a few points lie far off"));
-    ewa_image image = load("a.exr");
+    OWNED(ewa_image_free) ewa_image image = load("a.exr");
     assert_true(share_over(&image, 3, 0.5f) > 0.3);
-    ewa_image_free(&image);
 }
 
 /// A point far from all others is drawn, small: the picture is that without it but for a few pixels.
@@ -161,7 +155,7 @@ TEST(test_isolated_point) {
         "sed 's/element vertex 5000/element vertex 5001/' bare.txt >lone.ply && echo 4 0 0 9 9 9 >>lone.ply");
     run_done("ewa render lone.ply -o lone.exr --size 320x240 --save-camera lone.json "
              "&& ewa render bare.ply -o bare.exr --size 320x240 --camera lone.json");
-    ewa_image lone = load("lone.exr"), bare = load("bare.exr");
+    OWNED(ewa_image_free) ewa_image lone = load("lone.exr"), bare = load("bare.exr");
     uint32_t differing = 0;
     for (size_t i = 0; i < (size_t)320 * 240; i++) {
         float maximum = 0;
@@ -171,8 +165,6 @@ TEST(test_isolated_point) {
         differing += maximum > 0.01f;
     }
     assert_in_range(differing, 1, 40);
-    ewa_image_free(&lone);
-    ewa_image_free(&bare);
 }
 
 TEST(test_looks_differ) {
@@ -249,10 +241,9 @@ TEST(test_colors) {
         run_done("ewa render row.ply -q -o a.pfm --size 96x16 --view top --color-by q --colormap gray "
                  "--shading none --range %s",
                  down ? "100,0" : "0,100");
-        ewa_image image = load("a.pfm");
+        OWNED(ewa_image_free) ewa_image image = load("a.pfm");
         const float left = image.pixels[3 * (8 * 96 + 24)], right = image.pixels[3 * (8 * 96 + 72)];
         assert_true(down ? left > right + 0.2f : right > left + 0.2f);
-        ewa_image_free(&image);
     }
 }
 
@@ -276,11 +267,9 @@ TEST(test_cutoff_of_several) {
         "--background transparent";
     run_done("ewa render ball.ply -o alone.png %s && ewa render ball.ply beside.ply -o both.png %s", view,
              view);
-    ewa_image alone = load("alone.png"), both = load("both.png");
+    OWNED(ewa_image_free) ewa_image alone = load("alone.png"), both = load("both.png");
     const image_difference difference = image_compare(&alone, &both, 0.02);
     assert_int_equal(difference.over_threshold_count, 0);
-    ewa_image_free(&alone);
-    ewa_image_free(&both);
 }
 
 /// Coordinates whose differences are not finite are an error that says so.
@@ -310,12 +299,11 @@ TEST(test_mesh) {
     scratch_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
     run_done("ewa render square.obj -o a.png --size 100x100 --view top --background transparent "
              "--shading none");
-    ewa_image image = load("a.png");
+    OWNED(ewa_image_free) ewa_image image = load("a.png");
     const float *middle = image.pixels + (50 * 100 + 50) * 4;
     assert_true(image.channel_count == 4 && middle[3] == 1 && share_over(&image, 3, 0.99f) > 0.3);
     // Borders are cut by clip lines: nearly every pixel is opaque or empty.
     assert_true(share_over(&image, 3, 0.01f) - share_over(&image, 3, 0.99f) < 0.04);
-    ewa_image_free(&image);
 }
 
 /// Files with clip lines keep them beside files without.
@@ -328,11 +316,9 @@ TEST(test_clip_lines_of_one_file) {
         "--eye 3,2,2.5 --target 0,0,0 --fov 50 --size 150x150 --cull back --background transparent";
     run_done("ewa render cube.ply -o alone.png %s", view);
     run_done("ewa render cube.ply far.ply -o both.png %s", view);
-    ewa_image alone = load("alone.png"), both = load("both.png");
+    OWNED(ewa_image_free) ewa_image alone = load("alone.png"), both = load("both.png");
     const image_difference difference = image_compare(&alone, &both, 0.02);
     assert_int_equal(difference.over_threshold_count, 0);
-    ewa_image_free(&alone);
-    ewa_image_free(&both);
 }
 
 /// A box and planes leave their part of a square, seen from above with the view of the whole; of the far side

@@ -45,11 +45,10 @@ static const float *pixel(const ewa_image *image, double x, double y) {
 }
 
 static void check_upright(const char *name) {
-    ewa_image image = load(name);
+    OWNED(ewa_image_free) ewa_image image = load(name);
     const float *above = pixel(&image, 0.5, 0.2), *below = pixel(&image, 0.5, 0.8);
     if (!(above[0] > 0.8f && above[2] < 0.1f)) fail_msg("%s: not red above", name);
     if (!(below[2] > 0.8f && below[0] < 0.1f)) fail_msg("%s: not blue below", name);
-    ewa_image_free(&image);
 }
 
 TEST(upright) {
@@ -74,7 +73,7 @@ TEST(upright) {
 /// What is ahead hides what is behind; a wall hides all of what is behind it.
 TEST(hidden) {
     run_done("ewa render translucent.ply -o veiled.png --size 100x200");
-    ewa_image image = load("veiled.png");
+    OWNED(ewa_image_free) ewa_image image = load("veiled.png");
     assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
     ewa_image_free(&image);
     run_done("ewa render translucent.ply wall.ply -o wall.png --size 100x200 --shading none");
@@ -85,7 +84,6 @@ TEST(hidden) {
     image = load("behind.exr"); // yellow everywhere
     const float *middle = pixel(&image, 0.5, 0.3);
     assert_true(middle[0] > 0.9f && middle[1] > 0.9f && middle[2] < 0.1f);
-    ewa_image_free(&image);
 }
 
 /// Several sets, volumes and surfaces are in one order of depth, in whichever order they are named.

@@ -9,13 +9,12 @@
 #include <string.h>
 
 static void save(const char *name, uint32_t channels) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_create(context, 60, 40, channels, &image), EWA_OK);
     for (uint32_t i = 0; i < 60 * 40; i++)
         for (uint32_t c = 0; c < channels; c++)
             image.pixels[channels * i + c] = c == 3 ? 1.0f : (float)(i % 60 / 10 + i / 600 + c) / 12;
     assert_int_equal(ewa_image_save(&image, scratch_path(name), NULL), EWA_OK);
-    ewa_image_free(&image);
 }
 
 static int enter(void **state) {
@@ -35,17 +34,15 @@ TEST(test_maps) {
     run_done(
         "ewa texture rgb.pfm -o d.exr --ortho 90 --eye 0,0,9 --target 0,0,0 --plane -60,40,0,120,0,0,0,-80,0 "
         "--size 140x90");
-    ewa_image a = load("a.exr");
+    OWNED(ewa_image_free) ewa_image a = load("a.exr");
     assert_int_equal(a.channel_count, 4);
     assert_true(a.pixels[3] == 0 && fabsf(a.pixels[4 * (45 * 140 + 70) + 3] - 1) < 1e-6f);
     for (const char *name = "bcd"; *name; name++) {
         const char file[] = {*name, '.', 'e', 'x', 'r', 0};
-        ewa_image other = load(file);
+        OWNED(ewa_image_free) ewa_image other = load(file);
         const image_difference difference = image_compare(&a, &other, 0);
         assert_true(difference.maximum < 1e-4);
-        ewa_image_free(&other);
     }
-    ewa_image_free(&a);
 }
 
 /// All formats in and out, all methods; without a camera's options the whole image is seen.
@@ -56,10 +53,9 @@ TEST(test_files) {
     for (int k = 0; k < 12; k++) {
         run_done("ewa texture %s -o %s --method %s --size 90x70", inputs[k % 3], outputs[k / 4],
                  methods[k % 4]);
-        ewa_image image = load(outputs[k / 4]);
+        OWNED(ewa_image_free) ewa_image image = load(outputs[k / 4]);
         assert_int_equal(image.width_px, 90);
         assert_true(image.pixels[0] == 0);
-        ewa_image_free(&image);
     }
     run_done("ewa texture rgb.png -o - --corners 0,0,60,0,60,40,0,40 >p.png && ewa texture rgb.png -o q.png "
              "--corners "

@@ -292,24 +292,21 @@ TEST(test_planes) {
         }
         expect_shape("drawing.ply", to, ups[axis], views[axis]);
         run_done("ewa render drawing.ply -o drawing.exr --size 64x48 --background transparent");
-        ewa_image image = {0};
-        ewa_context *context = check_context(1, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+        OWNED(ewa_image_free) ewa_image image = {0};
         assert_int_equal(ewa_image_load(context, scratch_path("drawing.exr"), &image), EWA_OK);
         size_t covered = 0;
         for (size_t i = 0; i < 64 * 48; i++) covered += image.pixels[image.channel_count * i + 3] > 0.5f;
         assert_true(covered > 64 * 48 / 3);
-        ewa_image_free(&image);
-        ewa_context_destroy(&context);
     }
 }
 
 /// The view of --save-camera's file.
 static ewa_camera saved_camera(const char *name) {
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     ewa_camera camera;
     ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_load(context, scratch_path(name), 0, &camera), EWA_OK);
-    ewa_context_destroy(&context);
     return camera;
 }
 
@@ -326,16 +323,14 @@ TEST(test_range_images) {
             for (int c = 0; c < 3; c++) assert_true(fabs(eye[c]) < 1e-9);
             // y is down in the picture for a camera along +z, up for one along -z.
             assert_true(sign * camera.world_to_camera[5] > 0.9);
-            ewa_context *context = check_context(1, NULL);
-            ewa_image image = {0};
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+            OWNED(ewa_image_free) ewa_image image = {0};
             assert_int_equal(ewa_image_load(context, scratch_path("range.exr"), &image), EWA_OK);
             size_t covered = 0;
             for (size_t i = 0; i < 160 * 120; i++)
                 covered += image.pixels[image.channel_count * i + 3] > 0.5f;
             // Nothing hides behind another: no shadows.
             assert_true(covered > 0.65 * 160 * 120);
-            ewa_image_free(&image);
-            ewa_context_destroy(&context);
         }
     }
     // --fov, --view and --up decide otherwise.
@@ -376,8 +371,8 @@ TEST(test_unequal_discs) {
     static const char *const views[] = {"front", "left", "top", "iso"};
     for (size_t k = 0; k < sizeof views / sizeof views[0]; k++) {
         run_done("ewa render few.ply -o few.exr --size 160x120 --background transparent --view %s", views[k]);
-        ewa_context *context = check_context(1, NULL);
-        ewa_image image = {0};
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+        OWNED(ewa_image_free) ewa_image image = {0};
         assert_int_equal(ewa_image_load(context, scratch_path("few.exr"), &image), EWA_OK);
         size_t covered = 0, cut = 0;
         for (size_t i = 0; i < 160 * 120; i++) {
@@ -388,8 +383,6 @@ TEST(test_unequal_discs) {
         }
         assert_true(covered > 1000);
         assert_int_equal(cut, 0);
-        ewa_image_free(&image);
-        ewa_context_destroy(&context);
     }
 }
 

@@ -20,7 +20,7 @@ static int enter(void **state) {
 
 /// Share of the pixels of a picture whose alpha is above a half; its middle is in `place`.
 static double covered(const char *name, double place[2]) {
-    ewa_image image = load(name);
+    OWNED(ewa_image_free) ewa_image image = load(name);
     assert_int_equal(image.channel_count, 4);
     double count = 0;
     place[0] = place[1] = 0;
@@ -33,7 +33,6 @@ static double covered(const char *name, double place[2]) {
         }
     for (int k = 0; k < 2 && count > 0; k++) place[k] /= count;
     const double share = count / ((double)image.width_px * image.height_px);
-    ewa_image_free(&image);
     return share;
 }
 
@@ -108,7 +107,7 @@ TEST(test_pictures) {
 
 /// The largest alpha at the rim of a picture, and how much of its width or height is covered.
 static double at_rim(const char *name, double *extent) {
-    ewa_image image = load(name);
+    OWNED(ewa_image_free) ewa_image image = load(name);
     const uint32_t width = image.width_px, height = image.height_px;
     uint32_t low[2] = {width, height}, high[2] = {0, 0};
     double maximum = 0;
@@ -121,7 +120,6 @@ static double at_rim(const char *name, double *extent) {
             low[1] = y < low[1] ? y : low[1], high[1] = y > high[1] ? y : high[1];
         }
     *extent = fmax((high[0] - low[0] + 1.0) / width, (high[1] - low[1] + 1.0) / height);
-    ewa_image_free(&image);
     return maximum;
 }
 
@@ -164,7 +162,7 @@ TEST(test_views) {
     scratch_text("slice.nrrd",
                  "NRRD0004\ntype: float\ndimension: 2\nsizes: 4 3\nencoding: txt\n\n9 9 9 9 9 1 1 1 9 1 1 1");
     run_done("ewa volume slice.nrrd -o slice.exr --size 80x60 --transfer gray --background transparent");
-    ewa_image image = load("slice.exr");
+    OWNED(ewa_image_free) ewa_image image = load("slice.exr");
     double corners[4]; // the picture is three voxels high, and framed with some room
     for (int n = 0; n < 4; n++) {
         const size_t x = n % 2 ? 53 : 26, y = n / 2 ? 41 : 18;
@@ -172,7 +170,6 @@ TEST(test_views) {
     }
     for (int n = 0; n < 3; n++) assert_true(corners[n] > 0.1);
     assert_true(corners[3] < 0.02);
-    ewa_image_free(&image);
 }
 
 /// From within, voxels at the eye are there: fog is as dense as without.

@@ -64,7 +64,7 @@ TEST_WITHIN(test_helpers, session_begin, session_finish) {
     char path[512];
     scratch_write(scratch_path("model.fbx", path), "xyz", 3);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        uint8_t *bytes = NULL;
+        OWNED(check_free) uint8_t *bytes = NULL;
         size_t size = 7;
         const double before_s = clock_now_s();
         const bool done = run_helper(make_helper(cases[i].script), path, 1.5, 1 << 20, &bytes, &size);
@@ -79,9 +79,8 @@ TEST_WITHIN(test_helpers, session_begin, session_finish) {
             assert_true(!bytes && size == 0);
             if (!strstr(said, cases[i].said)) fail_msg("'%s' said %s", cases[i].script, said);
         }
-        free(bytes);
     }
-    uint8_t *bytes;
+    OWNED(check_free) uint8_t *bytes;
     size_t size;
     assert_false(run_helper("/no/such/helper", path, 1, 100, &bytes, &size));
     assert_non_null(
@@ -91,7 +90,6 @@ TEST_WITHIN(test_helpers, session_begin, session_finish) {
                            &size));
     assert_non_null(strstr(said, "warning: "));
     assert_non_null(strstr(said, "two pictures are missing"));
-    free(bytes);
 }
 
 TEST_WITHIN(test_names, session_begin, session_finish) {

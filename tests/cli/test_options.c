@@ -232,6 +232,7 @@ TEST(test_tables) {
 TEST(test_defaults_in_range) {
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
+        OWNED(check_free)
         char *defaults = calloc(1, command->arguments_bytes), *again = calloc(1, command->arguments_bytes);
         options_default(command, defaults);
         const cli_option *option;
@@ -254,8 +255,6 @@ TEST(test_defaults_in_range) {
             if (!options_parse(command, 2, list, operands, again, message))
                 assert_null(strstr(message, "outside"));
         }
-        free(defaults);
-        free(again);
     }
 }
 
@@ -338,11 +337,10 @@ static bool parse_options(const cli_command *command, size_t count, const cli_op
     size_t word_count = 0;
     for (; word_count < command->low_operands; word_count++) words[word_count] = "sphere";
     for (size_t i = 0; i < count; i++) word_count = add_option(options[i], words, word_count, texts[i]);
-    char *all = calloc(1, command->arguments_bytes);
+    OWNED(check_free) char *all = calloc(1, command->arguments_bytes);
     options_default(command, all);
     message[0] = 0;
     const bool accepted = options_parse(command, word_count, words, operands, all, message);
-    free(all);
     return accepted;
 }
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 TEST_ON(test_streams, 0) {
-    ewa_cloud *cloud = check_cloud_of(context, 3);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 3);
     for (int i = 0; i < 20; i++) {
         char name[16];
         snprintf(name, sizeof name, "scalar_%d", i);
@@ -27,14 +27,13 @@ TEST_ON(test_streams, 0) {
     assert_int_equal(ewa_cloud_add(cloud, "", EWA_F32, 1, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_add(cloud, "five", EWA_F32, 5, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_add(cloud, "odd", (ewa_type)99, 1, NULL), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_ON(test_borrowed_stride_and_bounds, 0) {
     struct record {
         float x, y, z, unused;
     } records[4] = {{1, 2, 3, 9}, {NAN, 0, 0, 9}, {-1, INFINITY, 0, 9}, {4, -5, 6, 9}};
-    ewa_cloud *cloud = check_cloud_of(context, 4);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 4);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, 6), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, sizeof records[0]), EWA_OK);
     const double origin[3] = {500000, 4000000, 100};
@@ -44,7 +43,6 @@ TEST_ON(test_borrowed_stride_and_bounds, 0) {
     assert_int_equal(bounds.finite_count, 2);
     assert_true(bounds.low_world[0] == 500001 && bounds.high_world[0] == 500004);
     assert_true(bounds.low_world[1] == 3999995 && bounds.high_world[2] == 106);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Packed numbers and those with others between them read the same, whatever their type.
@@ -55,7 +53,7 @@ TEST_ON(test_packed_and_strided, 0) {
         const size_t bytes = ewa_type_bytes((ewa_type)type);
         for (size_t i = 0; i < sizeof packed; i++) packed[i] = (uint8_t)(61 * i % 127); // no NaN
         for (size_t i = 0; i < COUNT; i++) memcpy(strided + 4 * bytes * i, packed + 3 * bytes * i, 3 * bytes);
-        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, COUNT);
         assert_int_equal(ewa_cloud_borrow(cloud, "packed", (ewa_type)type, 3, packed, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, "strided", (ewa_type)type, 3, strided, 4 * bytes), EWA_OK);
         double a[3 * COUNT], b[3 * COUNT];
@@ -66,7 +64,6 @@ TEST_ON(test_packed_and_strided, 0) {
         ewa_attribute_read_f32(ewa_cloud_find(cloud, "strided"), 5, COUNT - 6, d);
         assert_memory_equal(a, b, 3 * (COUNT - 6) * sizeof *a);
         assert_memory_equal(c, d, 3 * (COUNT - 6) * sizeof *c);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -89,13 +86,10 @@ TEST_ON(test_alike, 0) {
     for (uint32_t i = 0; i < 6; i++) ewa_cloud_destroy(&clouds[i]);
 }
 
-TEST(test_too_many_points) {
-    check_log log = {0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_too_many_points, 0) {
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, (uint64_t)1 << 40, &cloud), EWA_ERROR_LIMIT);
-    assert_non_null(strstr(log.text, "limit"));
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "limit"));
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

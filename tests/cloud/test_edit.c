@@ -66,7 +66,7 @@ TEST(test_select) {
 /// Streams with gaps between the points are read through their stride.
 TEST(test_select_borrowed) {
     const float records[] = {1, 2, 3, -1, 4, 5, 6, -1, 7, 8, 9, -1};
-    ewa_cloud *cloud = NULL, *part = NULL, *both = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL, *part = NULL, *both = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, 16), EWA_OK);
     const uint64_t last = 2;
@@ -75,12 +75,10 @@ TEST(test_select_borrowed) {
     const ewa_cloud *const clouds[] = {part, cloud};
     assert_int_equal(ewa_cloud_merge(clouds, 2, &both), EWA_OK);
     assert_true(number(both, EWA_POSITION, 0, 2) == 9 && number(both, EWA_POSITION, 2, 0) == 4);
-    ewa_cloud_destroy(&both);
-    ewa_cloud_destroy(&part);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST(test_merge) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *a = make(300, EWA_F32, "intensity", EWA_U8), *b = make(700, EWA_F64, "intensity", EWA_F32),
               *all = NULL;
     void *times = NULL;
@@ -108,9 +106,6 @@ TEST(test_merge) {
         for (uint32_t c = 0; c < 3; c++)
             assert_true(number(all, EWA_POSITION, 300 + i, c) + origin[c] ==
                         number(b, EWA_POSITION, i, c) + origin_b[c]);
-    ewa_cloud_destroy(&all);
-    ewa_cloud_destroy(&a);
-    ewa_cloud_destroy(&b);
 }
 
 /// Adds a stream whose every number is the same.
@@ -216,7 +211,7 @@ TEST(test_transform) {
         const double det = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                            m[2] * (m[4] * m[9] - m[5] * m[8]);
         if (fabs(det) < 0.5) continue;
-        ewa_cloud *cloud = check_cloud_of(context, 1);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1);
         add_triple(cloud, EWA_POSITION, 1, -2, 0.5f);
         add_triple(cloud, EWA_TANGENT_U, 0.3f, 0, 0.1f);
         add_triple(cloud, EWA_TANGENT_V, 0, 0.2f, 0);
@@ -262,12 +257,11 @@ TEST(test_transform) {
             }
             assert_true(border2 > 0 && fabs(there - border2) < 1e-5 * (1 + border2));
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 TEST(test_transform_refusals) {
-    ewa_cloud *cloud = make(2, EWA_F32, "a", EWA_U8);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make(2, EWA_F32, "a", EWA_U8);
     double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
     assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_NUMERIC);
     m[10] = NAN;
@@ -275,7 +269,6 @@ TEST(test_transform_refusals) {
     m[10] = 1;
     m[12] = 1;
     assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(begin, end); }

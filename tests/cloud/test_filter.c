@@ -83,7 +83,7 @@ TEST(test_expressions) {
         {{"tenths!=0.1"}, is_no_tenth},
         {{"z>400"}, is_high},
     };
-    ewa_cloud *cloud = make_cloud();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud();
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         ewa_filter filter = {.term_count = 0};
         char problem[EWA_OPTION_TEXT_BYTES] = "";
@@ -98,7 +98,6 @@ TEST(test_expressions) {
             if ((marks[i] != 0) != (cases[k].fulfils(i) && i != 2 && i != 102))
                 fail_msg("%s: point %d is%s marked", cases[k].texts[0], i, marks[i] ? "" : " not");
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST(test_bad_texts) {
@@ -139,7 +138,7 @@ TEST(test_bad_texts) {
 }
 
 TEST(test_unknown_attribute) {
-    ewa_cloud *cloud = make_cloud();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud();
     static const char *const words[] = {"height>1", "normal.x>1", "nx>1", "color.w>1", "alpha>1", ".x>1"};
     uint8_t marks[POINTS] = {0};
     for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
@@ -159,12 +158,11 @@ TEST(test_unknown_attribute) {
     ewa_scalar scalar;
     assert_int_equal(ewa_cloud_find_scalar(cloud, "nothing", &scalar), EWA_ERROR_ARGUMENT);
     assert_string_equal(messages.text + strlen(messages.text) - 5, ", ...");
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A name that is the same wins over one that is alike, an attribute over a word for a component.
 TEST(test_names) {
-    ewa_cloud *cloud = make_cloud();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud();
     ewa_scalar scalar;
     assert_int_equal(ewa_cloud_add(cloud, "ReturnNumber", EWA_U8, 1, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_find_scalar(cloud, "return_number", &scalar), EWA_OK);
@@ -193,13 +191,12 @@ TEST(test_names) {
     assert_int_equal(ewa_sphere_mark(middle, 2.25, cloud, marks), EWA_OK);
     for (int i = 0; i < POINTS; i++) assert_int_equal(marks[i], i >= 7 && i <= 9);
     assert_int_equal(ewa_sphere_mark(middle, NAN, cloud, marks), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Coordinates of a grid are the decimals of the file, whatever the binary fractions make of them.
 TEST(test_grid) {
     void *data;
-    ewa_cloud *cloud = check_cloud_of(context, 1000);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1000);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     const double origin[3] = {637000.37, 849000.01, 400.11};
     ewa_cloud_set_origin(cloud, origin);
@@ -217,12 +214,11 @@ TEST(test_grid) {
         for (int k = 0; k < 1000; k++) missed += marks[k] != (k == i);
     }
     assert_int_equal(missed, 0);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// The pieces of a cloud, of any size, give what the whole does, and so does any number of threads.
 TEST(test_pieces_and_keep) {
-    ewa_cloud *cloud = make_cloud();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud();
     ewa_filter filter = {.term_count = 0};
     assert_int_equal(ewa_filter_add(&filter, "classification=2,6 and red<100", NULL), EWA_OK);
     uint8_t whole[POINTS], pieces[POINTS];
@@ -234,14 +230,13 @@ TEST(test_pieces_and_keep) {
         for (uint64_t first = 0; first < POINTS; first += sizes[k]) {
             uint64_t indices[1024], count = 0;
             while (count < sizes[k] && first + count < POINTS) indices[count] = first + count, count++;
-            ewa_cloud *piece = NULL;
+            OWNED(ewa_cloud_destroy) ewa_cloud *piece = NULL;
             assert_int_equal(ewa_cloud_select(cloud, indices, count, &piece), EWA_OK);
             assert_int_equal(ewa_filter_mark(&filter, piece, pieces + first), EWA_OK);
-            ewa_cloud_destroy(&piece);
         }
         assert_memory_equal(whole, pieces, sizeof whole);
     }
-    ewa_cloud *kept = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *kept = NULL;
     assert_int_equal(ewa_cloud_keep(cloud, whole, &kept), EWA_OK);
     const ewa_attribute *tenths = ewa_cloud_find(kept, "tenths");
     uint64_t count = 0;
@@ -259,8 +254,6 @@ TEST(test_pieces_and_keep) {
     memset(whole, 0, sizeof whole);
     assert_int_equal(ewa_cloud_keep(cloud, whole, &kept), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(kept), 0);
-    ewa_cloud_destroy(&kept);
-    ewa_cloud_destroy(&cloud);
 }
 
 static int compare_numbers(const void *a, const void *b) {

@@ -56,9 +56,9 @@ static double red_in(const ewa_gaussians *set, uint32_t i, const double directio
 }
 
 static void check_moved(const double m[16], const double turn[9], uint32_t sh_degree) {
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     check_random random = {7};
-    ewa_gaussians before, after;
+    OWNED(ewa_gaussians_free) ewa_gaussians before, after;
     fill(context, sh_degree, &random, &before);
     random.state = 7;
     fill(context, sh_degree, &random, &after);
@@ -85,9 +85,6 @@ static void check_moved(const double m[16], const double turn[9], uint32_t sh_de
             to[r] = turn[3 * r] * from[0] + turn[3 * r + 1] * from[1] + turn[3 * r + 2] * from[2];
         assert_true(fabs(red_in(&before, i, from) - red_in(&after, i, to)) < 1e-5);
     }
-    ewa_gaussians_free(&before);
-    ewa_gaussians_free(&after);
-    ewa_context_destroy(&context);
 }
 
 TEST(similar) {
@@ -117,7 +114,7 @@ TEST(stretched) {
 
 /// Flat ones stay flat, with the third axis as the normal.
 TEST_ON(flat, 1) {
-    ewa_gaussians set;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     assert_int_equal(ewa_gaussians_create(context, 1, 0, &set), EWA_OK);
     set.flat = true;
     set.scales[0] = 1, set.scales[1] = 2, set.rotations[0] = 1;
@@ -129,15 +126,14 @@ TEST_ON(flat, 1) {
     assert_int_equal(ewa_gaussians_transform(&set, zero), EWA_ERROR_NUMERIC);
     const double last[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
     assert_int_equal(ewa_gaussians_transform(&set, last), EWA_ERROR_ARGUMENT);
-    ewa_gaussians_free(&set);
 }
 
 /// The shortest axis is the normal, wherever it is; colours are of the display, clouds hold light.
 TEST(surfels) {
     static const float scales[3][3] = {{3, 2, 1}, {3, 1, 2}, {1, 3, 2}};
     for (int shortest = 2, n = 0; shortest >= 0; shortest--, n++) {
-        ewa_context *context = check_context(1, NULL);
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_create(context, 1, 1, &set), EWA_OK);
         memcpy(set.scales, scales[n], sizeof scales[n]);
         // A quarter of a turn about z: x becomes y.
@@ -146,7 +142,7 @@ TEST(surfels) {
         set.harmonics[0] = (float)(0.5 / 0.28209479177387814); // white
         set.harmonics[2] = -9;
         set.origin[1] = 5;
-        ewa_cloud *cloud;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
         assert_int_equal(ewa_gaussians_to_cloud(&set, &cloud), EWA_OK);
         static const char *const names[] = {EWA_TANGENT_U, EWA_TANGENT_V, EWA_NORMAL, EWA_COLOR};
         float numbers[4][4];
@@ -172,9 +168,6 @@ TEST(surfels) {
         double origin[3];
         ewa_cloud_origin(cloud, origin);
         assert_true(origin[1] == 5);
-        ewa_cloud_destroy(&cloud);
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -186,7 +179,7 @@ static double mean_area(const float *scales) {
 /// One for several has their mean, covariance and colours, each by its opacity and its area, written out in double precision.
 TEST_ON(merged, 1) {
     check_random random = {3};
-    ewa_gaussians set, one;
+    OWNED(ewa_gaussians_free) ewa_gaussians set, one;
     uint32_t members[COUNT];
     ewa_gaussian_mass masses[COUNT];
     fill(context, 3, &random, &set);
@@ -218,8 +211,6 @@ TEST_ON(merged, 1) {
     assert_true(fabs(red_in(&one, 1, direction) - red / mass) < 1e-5);
     const double area = mean_area(one.scales + 3);
     assert_true(fabs((double)one.opacities[1] - fmin(mass / area, 1 - exp(-depth / area))) < 1e-6);
-    ewa_gaussians_free(&set);
-    ewa_gaussians_free(&one);
 }
 
 /// Opacities of one for four: alike ones at one place let through what they do one behind the other; those far from each other take
@@ -230,7 +221,7 @@ TEST_ON(merged_opacities, 1) {
     } cases[] = {{0, 0.3, 1 - 0.7 * 0.7 * 0.7 * 0.7}, {0, 1, 1}, {100, 0.5, 0}, {1.4, 0.95, 0.95}};
     const uint32_t members[4] = {0, 1, 2, 3};
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
-        ewa_gaussians set, one;
+        OWNED(ewa_gaussians_free) ewa_gaussians set, one;
         assert_int_equal(ewa_gaussians_create(context, 4, 0, &set), EWA_OK);
         assert_int_equal(ewa_gaussians_create(context, 1, 0, &one), EWA_OK);
         for (uint32_t i = 0; i < 4; i++) {
@@ -249,8 +240,6 @@ TEST_ON(merged_opacities, 1) {
         else
             assert_true(fabs(light - before) < 1e-3 * before);
         assert_true(one.opacities[0] <= 1);
-        ewa_gaussians_free(&set);
-        ewa_gaussians_free(&one);
     }
 }
 

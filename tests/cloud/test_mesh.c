@@ -6,10 +6,8 @@
 #include "cloud/mesh.h"
 #include "prepare/mesh_shapes.h"
 
-TEST(test_streams) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_mesh mesh;
+TEST_LOGGED(test_streams, 1) {
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     assert_int_equal(
         ewa_mesh_create(context, 5, 3, 2, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS | EWA_MESH_NORMALS, &mesh),
         EWA_OK);
@@ -29,8 +27,6 @@ TEST(test_streams) {
     ewa_mesh_free(NULL);
     assert_int_equal(ewa_mesh_create(context, 1, 1, 0, 0, &mesh), EWA_OK);
     assert_true(!mesh.normals && !mesh.colors && !mesh.texcoords && !mesh.materials && !mesh.textures);
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_weld, 1) {
@@ -52,7 +48,7 @@ TEST_ON(test_weld, 1) {
     // Many places, each three times, in another order.
     enum { MANY = 3000 };
     double(*many)[3] = malloc(3 * MANY * sizeof *many);
-    uint32_t *numbers = malloc(3 * MANY * sizeof *numbers);
+    OWNED(check_free) uint32_t *numbers = malloc(3 * MANY * sizeof *numbers);
     for (uint32_t i = 0; i < 3 * MANY; i++) {
         const uint32_t k = i * 7919u % MANY;
         many[i][0] = k % 13, many[i][1] = k / 13 % 17, many[i][2] = k / 221;
@@ -60,7 +56,6 @@ TEST_ON(test_weld, 1) {
     assert_int_equal(ewa_mesh_weld(context, many[0], 3 * MANY, numbers), EWA_OK);
     for (uint32_t i = 0; i < 3 * MANY; i++) assert_int_equal(numbers[i], i % MANY);
     free(many);
-    free(numbers);
 }
 
 static bool is_closed(const ewa_mesh *mesh) {
@@ -69,10 +64,8 @@ static bool is_closed(const ewa_mesh *mesh) {
     return closed;
 }
 
-TEST(test_closed) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_mesh mesh;
+TEST_LOGGED(test_closed, 1) {
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_cube(context, &mesh);
     assert_true(is_closed(&mesh));
     mesh.triangle_count--; // a hole
@@ -101,7 +94,7 @@ TEST(test_closed) {
     mesh.triangles[5] = 8;
     bool closed;
     assert_int_equal(ewa_mesh_is_closed(&mesh, &closed), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "triangle 1 has vertex 8, there are 8"));
+    assert_non_null(strstr(log->text, "triangle 1 has vertex 8, there are 8"));
     ewa_mesh_free(&mesh);
 
     shape_sphere(context, 16, &mesh); // its poles and its seam have many vertices at one place
@@ -137,8 +130,6 @@ TEST(test_closed) {
     ewa_mesh_free(&cube);
     assert_int_equal(ewa_mesh_create(context, 3, 0, 0, 0, &mesh), EWA_OK);
     assert_false(is_closed(&mesh));
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -46,9 +46,9 @@ static void order_points(uint32_t threads, const float *xyz, uint32_t count, uin
 /// Interleaves bit by bit the cells of the one grid that a cloud without dense cells needs.
 TEST(test_against_plain_sort) {
     enum { COUNT = 200000 };
-    float *xyz = random_points(COUNT, 1);
-    plain_item *items = calloc(COUNT, sizeof *items);
-    uint32_t *order = calloc(COUNT, sizeof *order);
+    OWNED(check_free) float *xyz = random_points(COUNT, 1);
+    OWNED(check_free) plain_item *items = calloc(COUNT, sizeof *items);
+    OWNED(check_free) uint32_t *order = calloc(COUNT, sizeof *order);
     double low[3] = {INFINITY, INFINITY, INFINITY}, high = 0;
     for (int i = 0; i < 3 * COUNT; i++) low[i % 3] = fmin(low[i % 3], xyz[i]);
     for (int i = 0; i < 3 * COUNT; i++) high = fmax(high, xyz[i] - low[i % 3]);
@@ -66,9 +66,6 @@ TEST(test_against_plain_sort) {
     for (uint32_t i = 0; i < COUNT; i++) differing += order[i] != items[i].index;
     // Half units round differently where a coordinate sits on a cell's border.
     assert_in_range(differing, 0, 8);
-    free(order);
-    free(items);
-    free(xyz);
 }
 
 /// A mixture that needs many grids: clusters down to 1e-30, an outlier, duplicates, NaN.
@@ -101,9 +98,9 @@ static float *hostile_points(uint32_t count) {
 TEST(test_threads) {
     enum { COUNT = 150000 };
     static const uint32_t threads[] = {2, 7, 32};
-    float *xyz = hostile_points(COUNT);
-    uint32_t *first = calloc(COUNT, sizeof *first), *order = calloc(COUNT, sizeof *order);
-    uint16_t *first_level = calloc(COUNT, sizeof *first_level), *level = calloc(COUNT, sizeof *level);
+    OWNED(check_free) float *xyz = hostile_points(COUNT);
+    OWNED(check_free) uint32_t *first = calloc(COUNT, sizeof *first), *order = calloc(COUNT, sizeof *order);
+    OWNED(check_free) uint16_t *first_level = calloc(COUNT, sizeof *first_level), *level = calloc(COUNT, sizeof *level);
     order_points(1, xyz, COUNT, first, first_level);
     for (int t = 0; t < 3; t++) {
         memset(order, 0xff, COUNT * sizeof *order);
@@ -113,7 +110,7 @@ TEST(test_threads) {
         assert_memory_equal(level, first_level, COUNT * sizeof *level);
     }
     // Each index once; those that are not finite at the end.
-    uint8_t *seen = calloc(COUNT, 1);
+    OWNED(check_free) uint8_t *seen = calloc(COUNT, 1);
     bool tail = false;
     for (uint32_t i = 0; i < COUNT; i++) {
         const float *p = &xyz[3 * order[i]];
@@ -123,27 +120,18 @@ TEST(test_threads) {
         assert_int_equal(seen[order[i]]++, 0);
     }
     assert_true(tail);
-    free(seen);
-    free(level);
-    free(first_level);
-    free(order);
-    free(first);
-    free(xyz);
 }
 
 /// An outlier so far away that all others share a cell leaves their order as it was.
 TEST(test_outlier) {
     enum { COUNT = 100000 };
-    float *xyz = random_points(COUNT, 4);
-    uint32_t *alone = calloc(COUNT, sizeof *alone), *order = calloc(COUNT, sizeof *order);
+    OWNED(check_free) float *xyz = random_points(COUNT, 4);
+    OWNED(check_free) uint32_t *alone = calloc(COUNT, sizeof *alone), *order = calloc(COUNT, sizeof *order);
     order_points(2, xyz, COUNT - 1, alone, NULL);
     for (int c = 0; c < 3; c++) xyz[3 * (COUNT - 1) + c] = 3e38f;
     order_points(2, xyz, COUNT, order, NULL);
     assert_int_equal(order[COUNT - 1], COUNT - 1);
     assert_memory_equal(order, alone, (COUNT - 1) * sizeof *order);
-    free(order);
-    free(alone);
-    free(xyz);
 }
 
 /// Doubles of georeferenced data are told apart to the last digit.
@@ -168,9 +156,9 @@ TEST_ON(test_double, 1) {
 /// overlap.
 TEST(test_split_levels) {
     enum { COUNT = 50000 };
-    float *xyz = random_points(COUNT, 5);
-    uint32_t *order = calloc(COUNT, sizeof *order);
-    uint16_t *level = calloc(COUNT, sizeof *level);
+    OWNED(check_free) float *xyz = random_points(COUNT, 5);
+    OWNED(check_free) uint32_t *order = calloc(COUNT, sizeof *order);
+    OWNED(check_free) uint16_t *level = calloc(COUNT, sizeof *level);
     order_points(2, xyz, COUNT, order, level);
     for (uint16_t cut = 2; cut < 14; cut++) {
         // All points of one run lie in a box whose edges are at most the cell's, so its volume is bounded.
@@ -187,9 +175,6 @@ TEST(test_split_levels) {
             }
         }
     }
-    free(level);
-    free(order);
-    free(xyz);
 }
 
 TEST_ON(test_few, 2) {

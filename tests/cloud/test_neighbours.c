@@ -107,7 +107,7 @@ static ewa_attribute positions_of(const float *xyz) {
 }
 
 static void check_against_brute_force(int kind, uint32_t count, uint32_t k) {
-    float *xyz = calloc(3 * (size_t)count + 1, sizeof *xyz);
+    OWNED(check_free) float *xyz = calloc(3 * (size_t)count + 1, sizeof *xyz);
     check_random random = {(uint64_t)kind * 1000 + count};
     uint32_t finite = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -116,9 +116,9 @@ static void check_against_brute_force(int kind, uint32_t count, uint32_t k) {
         finite += isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
     }
     const ewa_attribute position = positions_of(xyz);
-    ewa_context *context = NULL;
-    ewa_neighbours *tree = NULL;
-    found *all = find_all(2, EWA_CPU_ALL, &position, count, k, &tree, &context);
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
+    OWNED(ewa_neighbours_destroy) ewa_neighbours *tree = NULL;
+    OWNED(check_free) found *all = find_all(2, EWA_CPU_ALL, &position, count, k, &tree, &context);
     const uint32_t places = ewa_neighbours_place_count(tree);
 
     // Every finite point belongs to exactly one place, and places differ.
@@ -163,10 +163,6 @@ static void check_against_brute_force(int kind, uint32_t count, uint32_t k) {
     free(distance2);
     free(sorted);
     free(at);
-    free(all);
-    ewa_neighbours_destroy(&tree);
-    ewa_context_destroy(&context);
-    free(xyz);
 }
 
 TEST(test_against_brute_force) {
@@ -187,14 +183,14 @@ TEST(test_threads_and_machines) {
     enum { COUNT = 20000 };
     static const uint32_t threads[] = {1, 7, 32, 2, 2};
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
-    float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     for (int kind = 0; kind < KINDS - 1; kind += 3) {
         check_random random = {77};
         for (uint32_t i = 0; i < COUNT; i++) make_point(kind, i, COUNT, &random, &xyz[3 * i]);
         const ewa_attribute position = positions_of(xyz);
         ewa_context *context = NULL;
         ewa_neighbours *tree = NULL;
-        found *first = find_all(2, EWA_CPU_ALL, &position, COUNT, 16, &tree, &context);
+        OWNED(check_free) found *first = find_all(2, EWA_CPU_ALL, &position, COUNT, 16, &tree, &context);
         const uint32_t places = ewa_neighbours_place_count(tree);
         ewa_neighbours_destroy(&tree);
         ewa_context_destroy(&context);
@@ -205,44 +201,37 @@ TEST(test_threads_and_machines) {
             ewa_neighbours_destroy(&tree);
             ewa_context_destroy(&context);
         }
-        free(first);
     }
-    free(xyz);
 }
 
 /// Georeferenced doubles: the neighbourhoods of the same points near the origin.
 TEST(test_double) {
     enum { COUNT = 4000, K = 12 };
-    double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {5};
     // Multiples of 2^-20: exact at both places.
     for (uint32_t i = 0; i < 3 * COUNT; i++)
         xyz[i] = i % 3 == 2 ? 0 : floor(check_uniform(&random, 0, 1) * 0x1p20) * 0x1p-20;
     const ewa_attribute position = {
         .type = EWA_F64, .component_count = 3, .stride_bytes = 3 * sizeof *xyz, .data = xyz};
-    ewa_context *context = NULL;
-    ewa_neighbours *tree = NULL;
-    found *near = find_all(2, EWA_CPU_ALL, &position, COUNT, K, &tree, &context);
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
+    OWNED(ewa_neighbours_destroy) ewa_neighbours *tree = NULL;
+    OWNED(check_free) found *near = find_all(2, EWA_CPU_ALL, &position, COUNT, K, &tree, &context);
     ewa_neighbours_destroy(&tree);
     ewa_context_destroy(&context);
     for (uint32_t i = 0; i < 3 * COUNT; i++) xyz[i] += 5e6;
-    found *far = find_all(2, EWA_CPU_ALL, &position, COUNT, K, &tree, &context);
+    OWNED(check_free) found *far = find_all(2, EWA_CPU_ALL, &position, COUNT, K, &tree, &context);
     for (uint32_t p = 0; p < ewa_neighbours_place_count(tree); p++) {
         assert_int_equal(far[p].count, near[p].count);
         assert_memory_equal(far[p].listed, near[p].listed, near[p].count * sizeof *near[p].listed);
     }
-    free(near);
-    free(far);
-    ewa_neighbours_destroy(&tree);
-    ewa_context_destroy(&context);
-    free(xyz);
 }
 
 /// Places are where their points are, read from any place on.
 TEST(test_positions) {
     enum { COUNT = 3000, STEP = 700 };
-    double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
-    float *single = calloc(3 * (size_t)COUNT, sizeof *single);
+    OWNED(check_free) double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) float *single = calloc(3 * (size_t)COUNT, sizeof *single);
     check_random random = {6};
     for (uint32_t i = 0; i < 3 * COUNT; i++)
         xyz[i] = single[i] = (float)check_uniform(&random, 0, 1) + (float)(i % 3);
@@ -251,8 +240,8 @@ TEST(test_positions) {
                                         .component_count = 3,
                                         .stride_bytes = 3 * (precise ? sizeof *xyz : sizeof *single),
                                         .data = precise ? (void *)xyz : (void *)single};
-        ewa_context *context = check_context(2, NULL);
-        ewa_neighbours *tree = NULL;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+        OWNED(ewa_neighbours_destroy) ewa_neighbours *tree = NULL;
         assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
         const uint32_t places = ewa_neighbours_place_count(tree);
         for (uint32_t first = 0; first < places; first += STEP) {
@@ -266,11 +255,7 @@ TEST(test_positions) {
                     assert_true(fabs(read[i][c] - xyz[3 * (size_t)point + (size_t)c]) < 1e-7);
             }
         }
-        ewa_neighbours_destroy(&tree);
-        ewa_context_destroy(&context);
     }
-    free(single);
-    free(xyz);
 }
 
 static void count_lanes(void *user, const ewa_block *block, uint32_t worker) {
@@ -281,7 +266,7 @@ static void count_lanes(void *user, const ewa_block *block, uint32_t worker) {
 /// Clumps and far outliers cost no more than in proportion.
 TEST(test_clumps) {
     enum { COUNT = 200000 };
-    float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {6};
     for (uint32_t i = 0; i < COUNT; i++) {
         const double scale = i % 2 ? 0 : i % 4 ? 1e-12 : 1; // half of them at one place, a quarter in a speck
@@ -289,8 +274,8 @@ TEST(test_clumps) {
     }
     for (int c = 0; c < 3; c++) xyz[c] = 1e38f;
     const ewa_attribute position = positions_of(xyz);
-    ewa_context *context = check_context(2, NULL);
-    ewa_neighbours *tree = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_neighbours_destroy) ewa_neighbours *tree = NULL;
     assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
     uint32_t lanes[32] = {0};
     ewa_visit_choice choice = {16, 1, NULL, "test", 0, NULL};
@@ -300,16 +285,12 @@ TEST(test_clumps) {
     choice.sample_step = 10;
     assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
     assert_in_range(lanes[0] + lanes[16], COUNT / 2 / 12, COUNT / 2 / 8);
-    uint8_t *chosen = calloc(COUNT, 1);
+    OWNED(check_free) uint8_t *chosen = calloc(COUNT, 1);
     chosen[COUNT / 4] = 1;
     choice = (ewa_visit_choice){16, 1, chosen, "test", 0, NULL};
     memset(lanes, 0, sizeof lanes);
     assert_int_equal(ewa_neighbours_visit(tree, &choice, count_lanes, lanes), EWA_OK);
     assert_in_range(lanes[0] + lanes[16], 1, EWA_BLOCK_LANES);
-    free(chosen);
-    ewa_neighbours_destroy(&tree);
-    ewa_context_destroy(&context);
-    free(xyz);
 }
 
 static void keep_radii(void *user, const ewa_block *block, uint32_t worker) {
@@ -333,7 +314,7 @@ TEST_ON(test_chosen, 1) {
             xyz[3 * i + (uint32_t)c] =
                 (float)(i < SPARSE ? check_uniform(&random, 0, 8) : 10 + check_uniform(&random, 0, 0.25));
     const ewa_attribute position = positions_of(xyz);
-    ewa_neighbours *tree = NULL;
+    OWNED(ewa_neighbours_destroy) ewa_neighbours *tree = NULL;
     assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
     const uint32_t places = ewa_neighbours_place_count(tree);
     ewa_visit_choice choice = {64, 1, NULL, "test", 0, NULL};
@@ -354,7 +335,6 @@ TEST_ON(test_chosen, 1) {
                 if (chosen[i] == 2 || some[i] >= 0) assert_true(some[i] == all[i]);
         }
     }
-    ewa_neighbours_destroy(&tree);
 }
 
 static void check_places(void *user, const ewa_block *block, uint32_t worker) {
@@ -367,25 +347,22 @@ static void check_places(void *user, const ewa_block *block, uint32_t worker) {
 /// Doubles whose squared distances overflow: only places that are there are found, or none.
 TEST(test_overflow) {
     enum { COUNT = 600 };
-    double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {7};
     for (uint32_t i = 0; i < 3 * COUNT; i++) xyz[i] = check_uniform(&random, -1, 1);
     xyz[0] = 1e200, xyz[3] = -1e200, xyz[7] = 1.7e308;
     const ewa_attribute position = {
         .type = EWA_F64, .component_count = 3, .stride_bytes = 3 * sizeof *xyz, .data = xyz};
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     for (int all = 0; all < 2; all++) { // a few far ones, then nothing else
         for (uint32_t i = 0; all && i < 3 * COUNT; i++) xyz[i] = 1e300 * check_uniform(&random, -1, 1);
-        ewa_neighbours *tree = NULL;
+        OWNED(ewa_neighbours_destroy) ewa_neighbours *tree = NULL;
         assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
         uint32_t places = ewa_neighbours_place_count(tree);
         assert_int_equal(places, COUNT);
         const ewa_visit_choice choice = {16, 1, NULL, "test", 0, NULL};
         assert_int_equal(ewa_neighbours_visit(tree, &choice, check_places, &places), EWA_OK);
-        ewa_neighbours_destroy(&tree);
     }
-    ewa_context_destroy(&context);
-    free(xyz);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -69,27 +69,25 @@ TEST_ON(test_distance, 3) {
     static const double distances[] = {0.05, 0.125, 0.31, 2, 30};
     for (int kind = 0; kind < KINDS; kind++) {
         fill(kind, COUNT, p);
-        ewa_cloud *cloud = make_cloud(context, COUNT, p, no_origin);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, COUNT, p, no_origin);
         for (size_t k = 0; k < sizeof distances / sizeof distances[0]; k++) {
             uint8_t wanted[COUNT], marks[COUNT];
             for (int i = 0; i < COUNT; i++) wanted[i] = marks[i] = i % 13 != 0;
             assert_int_equal(ewa_cloud_thin_distance(cloud, distances[k], marks), EWA_OK);
             check_distance(p, COUNT, wanted, marks, distances[k]);
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// Two points at the very distance both stay; one step nearer, one goes.
 TEST_ON(test_exact_distance, 1) {
     double p[6] = {0, 0, 0, 3, 4, 0};
-    ewa_cloud *cloud = make_cloud(context, 2, p, no_origin);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, 2, p, no_origin);
     uint8_t marks[2] = {1, 1};
     assert_int_equal(ewa_cloud_thin_distance(cloud, 5, marks), EWA_OK);
     assert_true(marks[0] && marks[1]);
     assert_int_equal(ewa_cloud_thin_distance(cloud, nextafter(5, 6), marks), EWA_OK);
     assert_int_equal(marks[0] + marks[1], 1);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// One point stays of each voxel, the one nearest to the mean.
@@ -134,14 +132,13 @@ TEST_ON(test_voxels, 3) {
     for (int kind = 0; kind < KINDS; kind++) {
         fill(kind, COUNT, p);
         const double *origin = kind % 2 ? far : no_origin;
-        ewa_cloud *cloud = make_cloud(context, COUNT, p, origin);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, COUNT, p, origin);
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
             uint8_t wanted[COUNT], marks[COUNT];
             for (int i = 0; i < COUNT; i++) wanted[i] = marks[i] = i % 13 != 0;
             assert_int_equal(ewa_cloud_thin_voxels(cloud, sizes[k], marks), EWA_OK);
             check_voxels(p, COUNT, wanted, marks, sizes[k], origin);
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -149,11 +146,10 @@ TEST_ON(test_voxels, 3) {
 TEST_ON(test_known_voxels, 2) {
     const double p[] = {0.1, 0, 0, 0.9, 0, 0, 0.45, 0, 0, -0.1, 0, 0, 1, 0, 0, 1.5, 0, 0};
     const uint8_t expected[] = {0, 0, 1, 1, 1, 0};
-    ewa_cloud *cloud = make_cloud(context, 6, p, no_origin);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, 6, p, no_origin);
     uint8_t marks[] = {1, 1, 1, 1, 1, 1};
     assert_int_equal(ewa_cloud_thin_voxels(cloud, 1, marks), EWA_OK);
     assert_memory_equal(marks, expected, sizeof marks);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Numbers of the points that stay, in rising order.
@@ -184,7 +180,7 @@ TEST(test_order_and_threads) {
     enum { MANY = 40000 };
     double *p = malloc(3 * MANY * sizeof *p), *q = malloc(3 * MANY * sizeof *q);
     uint32_t *ids = malloc(MANY * sizeof *ids);
-    uint8_t *first = malloc(MANY), *other = malloc(MANY);
+    OWNED(check_free) uint8_t *first = malloc(MANY), *other = malloc(MANY);
     assert_true(p && q && ids && first && other);
     for (int run = 0; run < 2 * KINDS; run++) {
         fill(run % KINDS, MANY, p);
@@ -212,14 +208,12 @@ TEST(test_order_and_threads) {
             ewa_context_destroy(&context);
         }
     }
-    free(p), free(q), free(ids), free(first), free(other);
+    free(p), free(q), free(ids);
 }
 
-TEST(test_refusals) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+TEST_LOGGED(test_refusals, 2) {
     const double p[] = {0, 0, 0, 1e30, 0, 0};
-    ewa_cloud *cloud = make_cloud(context, 2, p, no_origin);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, 2, p, no_origin);
     uint8_t marks[2] = {1, 1};
     static const double bad[] = {0, -1, NAN, INFINITY};
     for (int k = 0; k < 4; k++) {
@@ -229,7 +223,7 @@ TEST(test_refusals) {
     assert_int_equal(ewa_cloud_thin_voxels(cloud, 1e-300, marks), EWA_OK);
     assert_true(marks[0] && marks[1]);
     assert_int_equal(ewa_cloud_thin_distance(cloud, 0.01, marks), EWA_ERROR_NUMERIC);
-    assert_non_null(strstr(log.text, "a distance of 0.01 cannot be kept: coordinates are over 1.0"));
+    assert_non_null(strstr(log->text, "a distance of 0.01 cannot be kept: coordinates are over 1.0"));
     marks[0] = 1, marks[1] = 0; // a point that is left out does no harm
     assert_int_equal(ewa_cloud_thin_distance(cloud, 0.01, marks), EWA_OK);
     assert_true(marks[0] && !marks[1]);
@@ -241,8 +235,6 @@ TEST(test_refusals) {
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_thin_voxels(cloud, 1, marks), EWA_OK);
     assert_int_equal(ewa_cloud_thin_distance(cloud, 1, marks), EWA_OK);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Whichever allocation fails, the call says so and holds nothing.

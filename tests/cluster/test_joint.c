@@ -18,8 +18,8 @@ typedef struct subject {
 static void draw_as_rank(const ewa_exchange *exchange, void *data) {
     subject *of = data;
     const uint32_t rank = exchange->rank;
-    ewa_context *context = check_context(1, NULL);
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     of->status[rank] = ewa_renderer_create_joint(context, exchange, &renderer);
     void *state = NULL;
     ewa_renderer_backend(renderer, &context, &state);
@@ -27,14 +27,12 @@ static void draw_as_rank(const ewa_exchange *exchange, void *data) {
     if (of->status[rank] == EWA_OK)
         of->status[rank] =
             joint_frame_draw(context, renderer, &of->frame, rank, exchange->rank_count, &of->found[rank]);
-    ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 static void hold(subject *of, int index) {
-    ewa_context *context = check_context(2, NULL);
-    picture expected = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(picture_free) picture expected = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(joint_frame_draw(context, renderer, &of->frame, 0, 1, &expected), EWA_OK);
     static const uint32_t counts[] = {1, 2, 3, 4, 7};
     // Each frame on every second number of ranks, by turns of two frames, of which one has all planes.
@@ -52,9 +50,6 @@ static void hold(subject *of, int index) {
             picture_free(&of->found[rank]);
         }
     }
-    picture_free(&expected);
-    ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_bytes_of_one_process, 1) {
@@ -87,17 +82,17 @@ static double modelled_bytes(const ewa_joint *joint) {
 /// Draws one plane, seen from above, which both ranks have; says how many bytes this took, of those of the model.
 static void give_plane(const ewa_exchange *exchange, void *data) {
     double *shares = data;
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     WITH_DEFAULTS(ewa_generate_options, plane);
     plane.object = EWA_OBJECT_PLANE;
     plane.point_count = 40000;
-    ewa_cloud *cloud = NULL;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     WITH_DEFAULTS(ewa_render_options, options);
     options.edge_layers = 1;
     ewa_camera camera = check_camera(MODEL_PX, MODEL_PX);
-    picture into = picture_make(MODEL_PX, MODEL_PX);
+    OWNED(picture_free) picture into = picture_make(MODEL_PX, MODEL_PX);
     const ewa_frame frame = {.rgba8 = into.frame.rgba8};
     ewa_bounds box;
     void *state = NULL;
@@ -109,11 +104,6 @@ static void give_plane(const ewa_exchange *exchange, void *data) {
         ewa_render(renderer, surfels, &camera, &options, &frame, NULL) == EWA_OK;
     if (done) ewa_renderer_backend(renderer, &context, &state);
     shares[exchange->rank] = done ? (double)ranks_given_bytes(exchange) / modelled_bytes(state) : -1;
-    picture_free(&into);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_bytes_of_the_model) {
@@ -130,7 +120,7 @@ TEST(test_bytes_of_the_model) {
 /// What a rank gathers and adds up.
 static void gather_and_add(const ewa_exchange *exchange, void *data) {
     enum { COUNT = 11 };
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     bool *right = data;
     uint32_t all[RANKS_MAX] = {0}, mine = 100 + exchange->rank;
     int64_t values[COUNT];
@@ -142,7 +132,6 @@ static void gather_and_add(const ewa_exchange *exchange, void *data) {
     for (uint32_t r = 0; r < exchange->rank_count; r++) fine = fine && all[r] == 100 + r;
     for (int i = 0; i < COUNT; i++) fine = fine && values[i] == sum * (i - 5);
     right[exchange->rank] = fine;
-    ewa_context_destroy(&context);
 }
 
 TEST(test_gather_and_add) {

@@ -13,7 +13,7 @@ static bool never(void) { return false; }
 
 TEST_ON(test_bytes_of_one_process, 1) {
     const ewa_exchange exchange = mpi_exchange_of(&ranks);
-    ewa_renderer *joint = NULL, *alone = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *joint = NULL, *alone = NULL;
     assert_int_equal(ewa_renderer_create_joint(context, &exchange, &joint), EWA_OK);
     assert_int_equal(ewa_renderer_create(context, &alone), EWA_OK);
     for (int i = 0; i < JOINT_FRAMES; i++) {
@@ -31,8 +31,6 @@ TEST_ON(test_bytes_of_one_process, 1) {
         }
         picture_free(&found);
     }
-    ewa_renderer_destroy(&alone);
-    ewa_renderer_destroy(&joint);
 }
 
 int main(int argc, char **argv) {

@@ -50,10 +50,9 @@ static ewa_camera make_lens(void) {
 static ewa_camera fit(const ewa_cloud *cloud, double radius_scale, const double direction[3]) {
     const double up[3] = {0, direction[1] == 0, direction[1] != 0};
     ewa_camera camera = make_lens();
-    ewa_framing *framing = NULL;
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
     assert_int_equal(ewa_framing_create(cloud, radius_scale, &framing), EWA_OK);
     assert_int_equal(ewa_framing_fit(framing, direction, up, &camera), EWA_OK);
-    ewa_framing_destroy(&framing);
     return camera;
 }
 
@@ -98,12 +97,11 @@ static const double AHEAD[3] = {0, 0, -1};
 TEST(test_room) {
     const disc discs[] = {
         {{-1, 0, 0}, 0.02, {0, 0, 1}}, {{0, 0.1, 0}, 0.02, {0, 0, 1}}, {{1, 0, 0}, 0.05, {0, 0, 1}}};
-    ewa_cloud *cloud = make_cloud(discs, 3);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, 3);
     const ewa_camera camera = fit(cloud, 1, AHEAD);
     double box[4];
     rims_box(&camera, discs, 3, box);
     assert_true(fabs(box[0] - 32) < 3 && fabs(box[2] - 768) < 3);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// No disc of a few unequal ones reaches over the frame, whichever way it faces and from wherever it is seen;
@@ -120,7 +118,7 @@ TEST(test_unequal_discs) {
             // At most 2.9 times as large as another.
             discs[i].radius = check_uniform(&random, 0.2, 0.58);
         }
-        ewa_cloud *cloud = make_cloud(discs, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, count);
         for (size_t k = 0; k < sizeof directions / sizeof *directions; k++) {
             const ewa_camera camera = fit(cloud, 1, directions[k]);
             double box[4];
@@ -136,7 +134,6 @@ TEST(test_unequal_discs) {
         for (uint32_t i = 0; i < count; i++) discs[i].radius *= 2;
         rims_box(&camera, discs, count, box);
         assert_true(box[0] > 0 && box[1] > 0 && box[2] < 800 && box[3] < 600);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -160,13 +157,12 @@ TEST(test_giant_disc) {
     }
     for (int k = 0; k < 5; k++) {
         discs[0] = (disc){{1, 0, 0}, radii[k], {0, 0, 1}};
-        ewa_cloud *cloud = make_cloud(discs, COUNT);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, COUNT);
         const ewa_camera camera = fit(cloud, 1, AHEAD);
         double box[4];
         rims_box(&camera, discs, COUNT, box);
         if (k < 3) assert_true(box[0] > 0 && box[2] < 800 && box[2] > 760);
         distances[k] = distance_of(&camera);
-        ewa_cloud_destroy(&cloud);
     }
     assert_true(distances[1] > 1.07 * distances[0] && distances[2] > 1.003 * distances[1]);
     assert_float_equal(distances[3], distances[2], 1e-6 * distances[2]);
@@ -175,7 +171,7 @@ TEST(test_giant_disc) {
 
 /// Axes of surfels count by the longer axis of their ellipse, which need not be one of them.
 TEST(test_axes) {
-    ewa_cloud *cloud = check_cloud_of(context, 2);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 2);
     double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
     float *u = check_add(cloud, EWA_TANGENT_U, EWA_F32, 3);
     float *v = check_add(cloud, EWA_TANGENT_V, EWA_F32, 3);
@@ -183,13 +179,11 @@ TEST(test_axes) {
     // Support 3 sigma: 0.6 along v; the sum of two that are almost the same is as long as their root of two.
     memcpy(u, (float[6]){0, 0.05f, 0, 0.1f, 0.01f, 0}, 6 * sizeof *u);
     memcpy(v, (float[6]){0.2f, 0, 0, 0.1f, -0.01f, 0}, 6 * sizeof *v);
-    ewa_framing *framing = NULL;
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
     assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
     assert_int_equal(framing->count, 2);
     assert_float_equal(framing->rims_world[0], 0.6, 1e-6);
     assert_float_equal(framing->rims_world[1], 0.3 * sqrt(2), 1e-6);
-    ewa_framing_destroy(&framing);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Points without a radius that is drawn have no rim, and do not count for the median.
@@ -198,14 +192,12 @@ TEST(test_no_radius) {
                           {{1, 0, 0}, 0, {0, 0, 1}},
                           {{0, 1, 0}, -1, {0, 0, 1}},
                           {{1, 1, 0}, 0.1, {0, 0, 1}}};
-    ewa_cloud *cloud = make_cloud(discs, 4);
-    ewa_framing *framing = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, 4);
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
     assert_int_equal(ewa_framing_create(cloud, 2, &framing), EWA_OK);
     double sum = 0;
     for (size_t i = 0; i < framing->count; i++) sum += framing->rims_world[i];
     assert_float_equal(sum, 0.2, 1e-7);
-    ewa_framing_destroy(&framing);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// The lens of an eye at the origin shows all discs, as large as it goes.
@@ -215,8 +207,8 @@ TEST(test_zoom) {
                           {{0, 0, -5}, 0.3, {0, 0, 1}},
                           {{1.5, 0, -6}, 0.55, {0, 0, 1}},
                           {{0, -0.5, -4}, 0.2, {0, 0, 1}}};
-    ewa_cloud *cloud = make_cloud(discs, 4);
-    ewa_framing *framing = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, 4);
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
     ewa_camera camera = make_lens();
     assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
     assert_int_equal(ewa_framing_zoom(framing, origin, up, &camera), EWA_OK);
@@ -224,8 +216,6 @@ TEST(test_zoom) {
     rims_box(&camera, discs, 4, box);
     // The aim is good to a hundredth of the width; the other side is exact.
     assert_true(fabs(box[0] - 32) < 8 && fabs(box[2] - 768) < 3 && box[1] > 24 && box[3] < 576);
-    ewa_framing_destroy(&framing);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A share of less than 0.005 of the points that makes the box three times as large is left outside.
@@ -244,8 +234,8 @@ TEST(test_far_points) {
             check_uniform3(&random, -1, 1, discs[i].place);
             if (i < cases[k].far) discs[i] = (disc){{cases[k].place, 0, 0}, 0.02, {0, 0, 1}};
         }
-        ewa_cloud *cloud = make_cloud(discs, COUNT);
-        ewa_framing *framing = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, COUNT);
+        OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
         assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
         assert_int_equal(framing->trimmed, cases[k].trimmed);
         // What is left outside is not the object's own rim, and takes its discs along.
@@ -255,15 +245,13 @@ TEST(test_far_points) {
             for (size_t i = 0; i < framing->count; i++)
                 assert_float_equal(framing->rims_world[i], 0.01, 1e-8);
         }
-        ewa_framing_destroy(&framing);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// A sphere without its cap about an axis, `sign` times +z or +y, and what is chosen of it.
 static ewa_named_view view_of_shell(int axis, double sign, double cap, double outward, ewa_up_convention convention) {
     enum { COUNT = 40000 };
-    disc *discs = calloc(COUNT, sizeof *discs);
+    OWNED(check_free) disc *discs = calloc(COUNT, sizeof *discs);
     assert_non_null(discs);
     check_random random = {3};
     for (uint32_t i = 0; i < COUNT;) {
@@ -281,14 +269,11 @@ static ewa_named_view view_of_shell(int axis, double sign, double cap, double ou
         own->radius = 0.01;
         i++;
     }
-    ewa_cloud *cloud = make_cloud(discs, COUNT);
-    ewa_framing *framing = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, COUNT);
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
     ewa_upright upright;
     assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
     ewa_framing_choose(framing, convention, &upright);
-    ewa_framing_destroy(&framing);
-    ewa_cloud_destroy(&cloud);
-    free(discs);
     return upright.view;
 }
 
@@ -312,7 +297,7 @@ TEST(test_revolve) {
     const disc discs[] = {
         {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
     const double pivot[3] = {1, 1, 0.4}, reaches[] = {1, sqrt(13), sqrt(2)};
-    ewa_cloud *cloud = make_cloud(discs, 3);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, 3);
     ewa_framing *framing = NULL, *solid = NULL;
     assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
     for (size_t d = 0; d < 3; d++) {
@@ -342,7 +327,6 @@ TEST(test_revolve) {
         ewa_framing_destroy(&solid);
     }
     ewa_framing_destroy(&framing);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// What a caller may know of a framing, which outlives its cloud.
@@ -422,8 +406,7 @@ TEST(test_failures) {
     ewa_framing_destroy(&framing);
     ewa_cloud *const clouds[] = {empty, lost, far, cloud};
     for (size_t i = 0; i < sizeof clouds / sizeof clouds[0]; i++) {
-        ewa_cloud *one = clouds[i];
-        ewa_cloud_destroy(&one);
+        OWNED(ewa_cloud_destroy) ewa_cloud *one = clouds[i];
     }
     context = others;
     ewa_context_destroy(&own);

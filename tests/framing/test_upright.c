@@ -540,7 +540,7 @@ TEST_ON(test_of_cloud, 1) {
     make_footed(0.33);
     const ewa_upright direct = chosen_at_origin(EWA_UP_Z_USUAL);
     for (int order = 0; order < 2; order++) {
-        ewa_framing *framing = NULL;
+        OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
         ewa_upright chosen;
         ewa_cloud *cloud = check_cloud_of(context, made.count);
         double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
@@ -552,7 +552,6 @@ TEST_ON(test_of_cloud, 1) {
         assert_int_equal(chosen.axis, direct.axis);
         assert_int_equal(chosen.view, direct.view);
         assert_ptr_equal(chosen.why, direct.why);
-        ewa_framing_destroy(&framing);
     }
 }
 

@@ -13,8 +13,8 @@
 
 /// Writes what is up in the picture of one file: "y", "-z".
 static void up_of(ewa_context *context, const char *path, char up[4], ewa_view_info *info) {
-    ewa_asset *asset = NULL;
-    ewa_scene *scene = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_asset_load(context, path, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
@@ -25,8 +25,6 @@ static void up_of(ewa_context *context, const char *path, char up[4], ewa_view_i
     for (int c = 1; c < 3; c++)
         if (fabs(above[c]) > fabs(above[axis])) axis = c;
     snprintf(up, 4, "%s%c", above[axis] < 0 ? "-" : "", "xyz"[axis]);
-    ewa_scene_destroy(&scene);
-    ewa_asset_release(&asset);
 }
 
 TEST(labels) {

@@ -27,9 +27,8 @@ static inline ewa_camera map_camera(const ewa_canvas *canvas, double scale_px) {
 }
 
 static inline void draw(const ewa_canvas *canvas, const ewa_camera *camera, const ewa_furniture_options *options) {
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     assert_int_equal(ewa_furniture_draw(context, camera, options, canvas), EWA_OK);
-    ewa_context_destroy(&context);
 }
 
 static inline bool is_dark(const uint8_t *pixel) { return pixel[0] < 40 && pixel[1] < 40 && pixel[2] < 40; }

@@ -6,12 +6,11 @@
 
 bool gpu_there(void) {
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_gpu_info info = {.struct_size = sizeof info};
     const ewa_status status = ewa_gpu_describe(context, &info);
     const bool there = status == EWA_OK && info.device_class >= EWA_GPU_CLOSE;
     if (!there) print_message("skipped: %s\n", log.count ? log.text : ewa_status_name(status));
-    ewa_context_destroy(&context);
     return there;
 }
 
@@ -56,13 +55,11 @@ ewa_status gpu_scene_draw(const gpu_scene *of, ewa_renderer *renderer, uint8_t *
 
 bool gpu_scene_same(const gpu_scene *of, const uint8_t *rgba8) {
     const size_t size = (size_t)of->camera.width_px * of->camera.height_px * 4;
-    uint8_t *wanted = malloc(size);
+    OWNED(check_free) uint8_t *wanted = malloc(size);
     assert_non_null(wanted);
-    ewa_renderer *cpu = check_renderer(of->context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *cpu = check_renderer(of->context);
     assert_int_equal(gpu_scene_draw(of, cpu, wanted), EWA_OK);
     const bool same = memcmp(wanted, rgba8, size) == 0;
-    ewa_renderer_destroy(&cpu);
-    free(wanted);
     return same;
 }
 

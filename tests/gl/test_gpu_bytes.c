@@ -46,9 +46,9 @@ TEST_ON(test_division_has_no_say, 0) {
                                              {"tile_px=4 unit=7 page=100", "tile_px=16 unit=5000"},
                                              {"tile_px=16 unit=100 page=7 parts=3", "storage=4500000"}};
     static const scene_kind kinds[] = {SCENE_CUBE, SCENE_NEAR, SCENE_ELLIPSES};
-    picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    OWNED(picture_free) picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        scene of;
+        OWNED(scene_free) scene of;
         assert_int_equal(scene_make(context, kinds[k], POINTS, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
         ewa_surfels *parts[1];
         assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
@@ -57,23 +57,19 @@ TEST_ON(test_division_has_no_say, 0) {
         ewa_renderer *cpu = check_renderer(context);
         draw(cpu, parts, "0", &of, &options, &expected);
         for (size_t i = 0; i < 2; i++) {
-            ewa_renderer *gl = open_tuned(context, tunings[k][i]);
+            OWNED(ewa_renderer_destroy) ewa_renderer *gl = open_tuned(context, tunings[k][i]);
             draw(gl, parts, "0", &of, &options, &found);
             assert_same(&expected, &found, tunings[k][i]);
-            ewa_renderer_destroy(&gl);
         }
         ewa_renderer_destroy(&cpu);
         ewa_surfels_destroy(&parts[0]);
-        scene_free(&of);
     }
-    picture_free(&expected);
-    picture_free(&found);
 }
 
 TEST_ON(test_pixels_of_parts, 0) {
     enum { SMALL_PX = 40 };
-    picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);
-    scene of;
+    OWNED(picture_free) picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_CUBE, POINTS, SMALL_PX, SMALL_PX, &of), EWA_OK);
     ewa_surfels *parts[1];
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
@@ -88,14 +84,11 @@ TEST_ON(test_pixels_of_parts, 0) {
     ewa_renderer_destroy(&gl);
     ewa_renderer_destroy(&cpu);
     ewa_surfels_destroy(&parts[0]);
-    scene_free(&of);
-    picture_free(&expected);
-    picture_free(&found);
 }
 
 TEST_ON(test_order_has_no_say, 0) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
-    picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    OWNED(picture_free) picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     scene scenes[3];
     ewa_surfels *parts[3];
     for (int i = 0; i < 3; i++) {
@@ -126,17 +119,15 @@ TEST_ON(test_order_has_no_say, 0) {
         ewa_surfels_destroy(&parts[i]);
         scene_free(&scenes[i]);
     }
-    picture_free(&expected);
-    picture_free(&found);
 }
 
 /// Surfels that are freed and made again at the same address are other surfels.
 TEST_ON(test_surfels_come_and_go, 0) {
-    picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
-    ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
+    OWNED(picture_free) picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    OWNED(ewa_renderer_destroy) ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
     assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
     for (int i = 0; i < 4; i++) {
-        scene of;
+        OWNED(scene_free) scene of;
         assert_int_equal(
             scene_make(context, i % 2 ? SCENE_TORUS : SCENE_SPHERE, 2000, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
         ewa_surfels *parts[1];
@@ -145,12 +136,7 @@ TEST_ON(test_surfels_come_and_go, 0) {
         draw(gl, parts, "0", &of, NULL, &found);
         assert_same(&expected, &found, "new surfels");
         ewa_surfels_destroy(&parts[0]);
-        scene_free(&of);
     }
-    ewa_renderer_destroy(&gl);
-    ewa_renderer_destroy(&cpu);
-    picture_free(&expected);
-    picture_free(&found);
 }
 
 int main(void) {

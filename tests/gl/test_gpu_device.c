@@ -12,15 +12,13 @@ static void tune(const char *text) { assert_int_equal(setenv("EWA_GL_TUNING", te
 
 static ewa_gl_verdict try_arithmetic(const char *text) {
     tune(text);
-    ewa_context *context = check_context(1, NULL);
-    ewa_gl *device = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_gl_close) ewa_gl *device = NULL;
     assert_int_equal(ewa_gl_open(context, &device), EWA_OK);
     ewa_gl_verdict verdict;
     assert_int_equal(ewa_gl_try(device, &verdict), EWA_OK);
     assert_true(ewa_gl_enter(device) == EWA_OK && glGetError() == GL_NO_ERROR);
     ewa_gl_leave(device);
-    ewa_gl_close(&device);
-    ewa_context_destroy(&context);
     return verdict;
 }
 
@@ -86,9 +84,9 @@ static long resident_kib(void) {
 TEST(test_resizes) {
     enum { SIZES = 1000, WARM = 100, MAX_PX = 40, ALLOWED_KIB = 24 << 10 };
     static uint8_t rgba8[4 * MAX_PX * MAX_PX];
-    gpu_scene at;
+    OWNED(gpu_scene_free) gpu_scene at;
     gpu_scene_make(&at, 100, MAX_PX, MAX_PX);
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
     check_random random = {7};
     long warm_kib = 0;
@@ -104,8 +102,6 @@ TEST(test_resizes) {
     print_message("%d sizes: %ld KiB, then %ld\n", SIZES, warm_kib, resident_kib());
     assert_true(resident_kib() <= warm_kib + ALLOWED_KIB);
     assert_int_equal(at.log.count, 0);
-    ewa_renderer_destroy(&renderer);
-    gpu_scene_free(&at);
 }
 
 /// A hundred renderers, each with its device, programs and surfels.
@@ -120,12 +116,11 @@ TEST(test_creations) {
         ewa_renderer *renderer = NULL;
         assert_int_equal(ewa_renderer_create_on(context, EWA_BACKEND_GL, &renderer), EWA_OK);
         if (i % 25 == 0) { // with all programs of a frame
-            gpu_scene at;
+            OWNED(gpu_scene_free) gpu_scene at;
             gpu_scene_make(&at, 50, SIDE_PX, SIDE_PX);
             assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
             assert_true(gpu_scene_same(&at, rgba8));
             ewa_renderer_destroy(&renderer);
-            gpu_scene_free(&at);
         }
         ewa_renderer_destroy(&renderer);
         assert_int_equal(memory.held_bytes, held_bytes);
@@ -140,7 +135,7 @@ TEST(test_creations) {
 /// A context of the caller's own stays current.
 TEST_ON(test_outside_stays, 1) {
     tune("");
-    ewa_gl *outside = NULL;
+    OWNED(ewa_gl_close) ewa_gl *outside = NULL;
     assert_int_equal(ewa_gl_open(context, &outside), EWA_OK);
     assert_int_equal(ewa_gl_enter(outside), EWA_OK);
     const EGLContext current = eglGetCurrentContext();
@@ -156,7 +151,6 @@ TEST_ON(test_outside_stays, 1) {
     assert_ptr_equal(eglGetCurrentContext(), current);
     gpu_scene_free(&at);
     ewa_gl_leave(outside);
-    ewa_gl_close(&outside);
 }
 
 int main(void) {

@@ -44,7 +44,7 @@ static void draw_same(ewa_renderer *renderer, int frames) {
 
 static void test_no_device(void **state) {
     tune("nodevice=1");
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);
     assert_null(renderer);
     assert_says("OpenGL: ");
@@ -58,7 +58,6 @@ static void test_no_device(void **state) {
     ewa_renderer_info what = {.struct_size = sizeof what};
     assert_int_equal(ewa_renderer_describe(renderer, &what), EWA_OK);
     assert_true(what.remark[0] != 0 && what.device[0] == 0 && what.device_class == EWA_GPU_NONE);
-    ewa_renderer_destroy(&renderer);
 }
 
 static void test_arguments(void **state) {
@@ -92,19 +91,18 @@ static void test_software_is_not_taken(void **state) {
     assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
     if (!info.software) return;
     at.log.count = 0;
-    ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
     for (int i = 0; i < 6; i++) {
         draw_same(renderer, 1);
         assert_string_equal(gpu_backend(renderer), "cpu");
     }
     assert_int_equal(at.log.count, 0);
-    ewa_renderer_destroy(&renderer);
 }
 
 /// Both are measured; the bytes never tell which it was.
 static void test_both_draw(void **state) {
     tune("software=1 auto=gl");
-    ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
     static const char *const wanted[] = {"cpu", "gl", "cpu", "gl", "gl"};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         draw_same(renderer, 1);
@@ -123,7 +121,6 @@ static void test_both_draw(void **state) {
     ewa_gpu_info info = {.struct_size = sizeof info};
     assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
     if (info.software) assert_string_equal(gpu_backend(renderer), "cpu");
-    ewa_renderer_destroy(&renderer);
 }
 
 /// The device ends in one of the waits of a frame; whichever it is, nothing is missing from the picture.
@@ -134,7 +131,7 @@ static void test_device_goes(void **state) {
             char text[64];
             snprintf(text, sizeof text, "%s=%d software=1 auto=gl", ways[way], wait);
             tune(text);
-            ewa_renderer *renderer = make(EWA_BACKEND_GL);
+            OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(EWA_BACKEND_GL);
             ewa_status status = EWA_OK;
             for (int i = 0; i < 4 && status == EWA_OK; i++) status = gpu_scene_draw(&at, renderer, rgba8);
             assert_int_equal(status, EWA_ERROR_UNSUPPORTED);
@@ -147,7 +144,6 @@ static void test_device_goes(void **state) {
             assert_int_equal(at.log.count, 2); // why, and what follows from it
             assert_says("the CPU draws from here on");
             assert_string_equal(gpu_backend(renderer), "cpu");
-            ewa_renderer_destroy(&renderer);
         }
 }
 
@@ -185,7 +181,7 @@ static void test_little_memory(void **state) {
 /// gets them in turns.
 static void test_small_limits(void **state) {
     tune("blocks=8");
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);
     assert_says("8 storage blocks");
     ewa_gpu_info info = {.struct_size = sizeof info};
@@ -201,7 +197,6 @@ static void test_small_limits(void **state) {
     tune("groups=3 unit=64");
     renderer = make(EWA_BACKEND_GL);
     draw_same(renderer, 2);
-    ewa_renderer_destroy(&renderer);
 }
 
 int main(void) {

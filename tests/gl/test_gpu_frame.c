@@ -17,9 +17,9 @@ static ewa_renderer_info info_of(const ewa_renderer *renderer) {
 /// A default frame waits once, reads once and sends the same whatever the size of the cloud; and all its programs are few.
 TEST(test_counts) {
     enum { DISPATCHES = 12 };
-    gpu_scene at;
+    OWNED(gpu_scene_free) gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
     assert_int_equal(info_of(renderer).wait_count, 0);
     assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
@@ -48,16 +48,14 @@ TEST(test_counts) {
     assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
     const ewa_renderer_info none = info_of(renderer);
     assert_true(none.wait_count + none.readback_count + none.dispatch_count == 0 && none.upload_bytes == 0);
-    ewa_renderer_destroy(&renderer);
-    gpu_scene_free(&at);
 }
 
 /// Of a camera among the surfels some touch the eye's plane, which the host draws up: one wait more. It gets them, and from
 /// elsewhere the frame is as ever.
 TEST(test_near) {
-    gpu_scene at;
+    OWNED(gpu_scene_free) gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
     const ewa_camera outside = at.camera;
     const double *low = at.bounds.low_world, *high = at.bounds.high_world, z = (low[2] + high[2]) / 2;
@@ -71,14 +69,12 @@ TEST(test_near) {
         if (frame == 2) assert_int_equal(info_of(renderer).wait_count, 2);
         if (frame > 3) assert_int_equal(info_of(renderer).wait_count, 1);
     }
-    ewa_renderer_destroy(&renderer);
-    gpu_scene_free(&at);
 }
 
 TEST(test_times) {
-    gpu_scene at;
+    OWNED(gpu_scene_free) gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
     for (int frame = 0; frame < 2; frame++) {
         ewa_render_stats stats;
@@ -92,8 +88,6 @@ TEST(test_times) {
         }
         assert_true(sum_s <= 1.01 * stats.total_s);
     }
-    ewa_renderer_destroy(&renderer);
-    gpu_scene_free(&at);
 }
 
 int main(void) {

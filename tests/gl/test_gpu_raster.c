@@ -130,10 +130,9 @@ static ewa_cloud *make_cloud(ewa_object object, bool sharp) {
 }
 
 static ewa_surfels *make_surfels(ewa_object object, bool sharp, ewa_bounds *bounds) {
-    ewa_cloud *cloud = make_cloud(object, sharp);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(object, sharp);
     assert_int_equal(ewa_cloud_measure(cloud, bounds), EWA_OK);
     ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_cloud_destroy(&cloud);
     return surfels;
 }
 
@@ -150,7 +149,7 @@ TEST(test_kernels) {
     if (!shared.raster) skip();
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(EWA_OBJECT_SPHERE, false, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(EWA_OBJECT_SPHERE, false, &bounds);
     for (int kernel = 0; kernel < 5; kernel++) {
         view of = make_view(&bounds, EWA_PERSPECTIVE, 0.8);
         of.options.kernel = (ewa_kernel)kernel;
@@ -166,13 +165,12 @@ TEST(test_kernels) {
     hold("orthographic", surfels, &of);
     of.options.prefilter_px = 0;
     hold("no prefilter", surfels, &of);
-    ewa_surfels_destroy(&surfels);
 }
 
 TEST(test_options) {
     if (!shared.raster) skip();
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(EWA_OBJECT_TERRAIN, false, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(EWA_OBJECT_TERRAIN, false, &bounds);
     const view plain = make_view(&bounds, EWA_PERSPECTIVE, 1);
     view of = plain;
     of.options.edge_antialiasing = false;
@@ -193,13 +191,12 @@ TEST(test_options) {
     of = make_view(&bounds, EWA_PERSPECTIVE, 0.2);
     of.floats = true;
     hold("near", surfels, &of);
-    ewa_surfels_destroy(&surfels);
 }
 
 TEST(test_lines) {
     if (!shared.raster) skip();
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
     view of = make_view(&bounds, EWA_PERSPECTIVE, 1);
     of.floats = true;
     hold("clip lines", surfels, &of);
@@ -213,7 +210,6 @@ TEST(test_lines) {
     of.camera = make_view(&bounds, EWA_PERSPECTIVE, 0.15).camera;
     of.options.kernel = EWA_KERNEL_RAYCAST;
     hold("clip lines, near", surfels, &of);
-    ewa_surfels_destroy(&surfels);
 }
 
 /// Several sources of different weights; rows of a picture that is drawn in bands are those of the whole.
@@ -266,14 +262,14 @@ TEST(test_materials) {
                              .width_px = SKY_WIDTH,
                              .height_px = SKY_HEIGHT,
                              .channel_count = 3};
-    ewa_environment *environment = NULL;
+    OWNED(ewa_environment_destroy) ewa_environment *environment = NULL;
     assert_int_equal(ewa_environment_create(&image, &environment), EWA_OK);
     ewa_cloud *cloud = make_cloud(EWA_OBJECT_SPHERE, false);
     uint8_t *codes = check_add(cloud, EWA_MATERIAL, EWA_U8, 1);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) codes[i] = (uint8_t)(i / 500 % MATERIALS);
     ewa_bounds bounds;
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_cloud_destroy(&cloud);
     ewa_material materials[MATERIALS];
     for (int i = 0; i < MATERIALS; i++) ewa_material_init(&materials[i]);
@@ -287,8 +283,6 @@ TEST(test_materials) {
     hold("materials", surfels, &of);
     of.options.environment = environment;
     hold("environment", surfels, &of);
-    ewa_surfels_destroy(&surfels);
-    ewa_environment_destroy(&environment);
 }
 
 /// What is wider than any device's pictures is refused, with a reason; the renderer goes on.
@@ -296,7 +290,7 @@ TEST(test_refusal) {
     if (!shared.raster) skip();
     enum { WIDE = 65535 };
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(EWA_OBJECT_SPHERE, false, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(EWA_OBJECT_SPHERE, false, &bounds);
     view of = make_view(&bounds, EWA_PERSPECTIVE, 1);
     of.camera.width_px = WIDE, of.camera.height_px = 1;
     uint8_t *row = calloc(WIDE, 4);
@@ -308,7 +302,6 @@ TEST(test_refusal) {
     free(row);
     of = make_view(&bounds, EWA_PERSPECTIVE, 1);
     hold("after a refusal", surfels, &of);
-    ewa_surfels_destroy(&surfels);
 }
 
 /// The raster pipeline, of which the test sees the state.
@@ -347,10 +340,10 @@ static object_counts count_objects(void) {
 TEST(test_objects) {
     if (!shared.raster) skip();
     enum { TURNS = 61, WARM = 30 };
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_by(shared.context, &watched_backend, &renderer), EWA_OK);
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
     object_counts warm = {0};
     for (uint32_t i = 0; i < TURNS; i++) {
         view of = make_view(&bounds, EWA_PERSPECTIVE, 1);
@@ -366,8 +359,6 @@ TEST(test_objects) {
                   last.targets, last.programs);
     assert_true(warm.pictures > 0 && warm.buffers > 0 && warm.targets > 0 && warm.programs > 0);
     assert_memory_equal(&warm, &last, sizeof warm);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
 }
 
 int main(void) { return RUN_TESTS(set_up, tear_down); }

@@ -52,15 +52,13 @@ static void make_clouds(void) {
     const char *const paths[] = {"right.ply"};
     MAKE(ewa_lod_build(made.context, paths, 1, "right.copc.laz", NULL, NULL));
     MAKE(ewa_lod_open(made.context, "right.copc.laz", &made.lod));
-    ewa_asset *loaded = NULL;
-    ewa_scene *saved = NULL;
+    OWNED(ewa_asset_release) ewa_asset *loaded = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *saved = NULL;
     MAKE(ewa_asset_load(made.context, "right.ply", NULL, &loaded));
     MAKE(ewa_scene_create(made.context, NULL, &saved));
     MAKE(ewa_scene_add(saved, loaded, &instance));
     MAKE(ewa_scene_save(saved, NULL, "right.json"));
     MAKE(ewa_scene_file_load(made.context, "right.json", NULL, &made.scene_file));
-    ewa_scene_destroy(&saved);
-    ewa_asset_release(&loaded);
 }
 
 static void make_pictures(void) {

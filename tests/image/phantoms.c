@@ -124,7 +124,7 @@ void phantom_add_head(phantom *scene, double skin, double brain, double bone) {
 
 /// Means of neighbours along one axis, weights 1 2 1.
 static void blur(float *values, int step) {
-    float *before = malloc(PHANTOM_VOXELS * sizeof *before);
+    OWNED(check_free) float *before = malloc(PHANTOM_VOXELS * sizeof *before);
     assert_non_null(before);
     memcpy(before, values, PHANTOM_VOXELS * sizeof *before);
     for (int at = 0; at < PHANTOM_VOXELS; at++) {
@@ -132,7 +132,6 @@ static void blur(float *values, int step) {
         const int low = along ? at - step : at, high = along + 1 < SIDE ? at + step : at;
         values[at] = 0.25f * before[low] + 0.5f * before[at] + 0.25f * before[high];
     }
-    free(before);
 }
 
 static double normal_number(check_random *random) {
@@ -144,7 +143,7 @@ ewa_volume phantom_scan_it(ewa_context *context, const phantom *scene, const pha
     ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){SIDE, SIDE, SIDE}, EWA_U8, &volume),
                      EWA_OK);
-    float *values = malloc(PHANTOM_VOXELS * sizeof *values);
+    OWNED(check_free) float *values = malloc(PHANTOM_VOXELS * sizeof *values);
     assert_non_null(values);
     memcpy(values, scene->values, PHANTOM_VOXELS * sizeof *values);
     for (int step = 1; step <= LAYER; step *= SIDE) blur(values, step);
@@ -158,7 +157,6 @@ ewa_volume phantom_scan_it(ewa_context *context, const phantom *scene, const pha
         const bool outside = scan->padded && hypot(p[0], p[1]) > MIDDLE;
         to[at] = outside ? 0 : (uint8_t)fmin(fmax(value + 0.5, 0), 255);
     }
-    free(values);
     return volume;
 }
 

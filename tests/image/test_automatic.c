@@ -17,10 +17,10 @@ TEST_ON(test_bonsai, 1) {
     static const phantom_scan scans[] = {
         {12, 5, true}, {12, 5, false}, {14, 7, true}, {2, 1, false}, {30, 5, true}};
     for (size_t n = 0; n < sizeof scans / sizeof scans[0]; n++) {
-        phantom scene = phantom_make(scans[n].air);
+        OWNED(phantom_free) phantom scene = phantom_make(scans[n].air);
         phantom_add_bonsai(&scene, 50 + scans[n].air, 70 + scans[n].air, 90 + scans[n].air,
                            130 + scans[n].air);
-        ewa_volume volume = phantom_scan_it(context, &scene, &scans[n]);
+        OWNED(ewa_volume_free) ewa_volume volume = phantom_scan_it(context, &scene, &scans[n]);
         const ewa_transfer transfer = phantom_transfer(&volume);
         const phantom_seen tree = phantom_look(&scene, &volume, &transfer, ALL_TREE);
         const phantom_seen leaves = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_LEAVES);
@@ -29,8 +29,6 @@ TEST_ON(test_bonsai, 1) {
         phantom_expect("tree", tree.object, 0.7, 1);
         phantom_expect("air", tree.elsewhere, 0, 0.04); // borders are blurred
         phantom_expect("leaves", leaves.object, 0.35, 1);
-        ewa_volume_free(&volume);
-        phantom_free(&scene);
     }
 }
 
@@ -44,27 +42,25 @@ TEST_ON(test_walnut, 1) {
                  {{10, 6, false}, 80, 8, 150, 110, true},  {{10, 9, false}, 100, 4, 180, 150, true},
                  {{10, 1, false}, 60, 2, 150, 110, true},  {{0, 0, false}, 60, 4, 150, 150, true}};
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
-        phantom scene = phantom_make(cases[n].scan.air);
+        OWNED(phantom_free) phantom scene = phantom_make(cases[n].scan.air);
         phantom_add_walnut(&scene, cases[n].cup, cases[n].thick, cases[n].lid, cases[n].shell,
                            cases[n].kernel);
-        ewa_volume volume = phantom_scan_it(context, &scene, &cases[n].scan);
+        OWNED(ewa_volume_free) ewa_volume volume = phantom_scan_it(context, &scene, &cases[n].scan);
         const ewa_transfer transfer = phantom_transfer(&volume);
         const phantom_seen nut = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_NUT);
         print_message("case %zu: nut %.2f, elsewhere %.3f\n", n, nut.object, nut.elsewhere);
         phantom_expect("nut", nut.object, 0.8, 1);
         phantom_expect("cup", nut.elsewhere, 0, 0.05);
-        ewa_volume_free(&volume);
-        phantom_free(&scene);
     }
 }
 
 /// A head in computed tomography: skin and bone, the one through the other. In magnetic resonance, where bone
 /// is dark, the skin is solid.
 TEST_ON(test_heads, 1) {
-    phantom scene = phantom_make(4);
+    OWNED(phantom_free) phantom scene = phantom_make(4);
     phantom_add_head(&scene, 70, 72, 170);
     const phantom_scan tomograph = {4, 2, false};
-    ewa_volume volume = phantom_scan_it(context, &scene, &tomograph);
+    OWNED(ewa_volume_free) ewa_volume volume = phantom_scan_it(context, &scene, &tomograph);
     ewa_transfer transfer = phantom_transfer(&volume);
     const phantom_seen bone = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_BONE);
     const phantom_seen soft = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT);
@@ -87,19 +83,17 @@ TEST_ON(test_heads, 1) {
     print_message("MR: head %.2f, elsewhere %.3f\n", head.opacity, head.elsewhere);
     phantom_expect("head", head.opacity, 0.85, 1);
     phantom_expect("outside", head.elsewhere, 0, 0.02);
-    ewa_volume_free(&volume);
-    phantom_free(&scene);
 }
 
 /// The same look of the same matter: turned, mirrored, in other numbers, with a few that are far off or none.
 TEST_ON(test_same_look, 1) {
-    phantom scene = phantom_make(12);
+    OWNED(phantom_free) phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 60, 80, 100, 140);
     const phantom_scan scan = {12, 5, true};
-    ewa_volume volume = phantom_scan_it(context, &scene, &scan);
+    OWNED(ewa_volume_free) ewa_volume volume = phantom_scan_it(context, &scene, &scan);
     const uint8_t *voxels = volume.voxels;
     const ewa_transfer first = phantom_transfer(&volume);
-    ewa_volume other;
+    OWNED(ewa_volume_free) ewa_volume other;
     assert_int_equal(ewa_volume_create(context, volume.dims, EWA_F32, &other), EWA_OK);
     float *numbers = other.voxels;
     for (int n = 0; n < 6; n++) {
@@ -132,9 +126,6 @@ TEST_ON(test_same_look, 1) {
             assert_true(fabs((double)transfer.points[i].extinction - extinction) < 0.1 * extinction + 1e-9);
         }
     }
-    ewa_volume_free(&other);
-    ewa_volume_free(&volume);
-    phantom_free(&scene);
 }
 
 /// Whatever comes, there is a look, and it shows something where there is something.
@@ -143,7 +134,7 @@ TEST_ON(test_odd_volumes, 1) {
                                         {64, 64, 1}, {5, 5, 5}, {40, 3, 2000}};
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
         for (int kind = 0; kind < 6; kind++) {
-            ewa_volume volume;
+            OWNED(ewa_volume_free) ewa_volume volume;
             assert_int_equal(ewa_volume_create(context, sizes[s], EWA_F32, &volume), EWA_OK);
             const size_t count = (size_t)sizes[s][0] * sizes[s][1] * sizes[s][2];
             float *numbers = volume.voxels, largest = -INFINITY;
@@ -169,23 +160,20 @@ TEST_ON(test_odd_volumes, 1) {
                 if ((size[0] == 1) + (size[1] == 1) + (size[2] == 1) != 1)
                     assert_true(transfer.points[0].extinction == 0);
             }
-            ewa_volume_free(&volume);
         }
 }
 
 /// Volumes that are filled to their faces show their denser half.
 TEST_ON(test_full_volume, 1) {
-    phantom scene = phantom_make(40);
+    OWNED(phantom_free) phantom scene = phantom_make(40);
     for (int i = 0; i < PHANTOM_VOXELS; i++)
         if (i / PHANTOM_SIDE % PHANTOM_SIDE > 40) scene.values[i] = 160, scene.material[i] = PHANTOM_SOFT;
     const phantom_scan scan = {40, 3, false};
-    ewa_volume volume = phantom_scan_it(context, &scene, &scan);
+    OWNED(ewa_volume_free) ewa_volume volume = phantom_scan_it(context, &scene, &scan);
     const ewa_transfer transfer = phantom_transfer(&volume);
     const phantom_seen dense = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT);
     phantom_expect("dense half", dense.object, 0.85, 1);
     phantom_expect("other half", dense.elsewhere, 0, 0.05);
-    ewa_volume_free(&volume);
-    phantom_free(&scene);
 }
 
 /// Nearly all voxels have the value next to the highest, and the lowest is in a row that is not looked at: no
@@ -193,7 +181,7 @@ TEST_ON(test_full_volume, 1) {
 TEST_ON(test_highest_class, 1) {
     enum { SIDE = 128 };
     const uint32_t dims[3] = {SIDE, SIDE, SIDE};
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
     uint8_t *voxels = volume.voxels;
     memset(voxels, 254, (size_t)SIDE * SIDE * SIDE);
@@ -202,7 +190,6 @@ TEST_ON(test_highest_class, 1) {
     const ewa_transfer transfer = phantom_transfer(&volume);
     for (uint32_t i = 0; i < transfer.point_count; i++)
         phantom_expect("point", transfer.points[i].value, 254.4999, 255);
-    ewa_volume_free(&volume);
 }
 
 /// A look along one column of voxels, from its two ends: three voxels in front hide, two do not; a gap of
@@ -223,7 +210,7 @@ TEST_ON(test_sight, 1) {
         for (int axis = 0; axis < 3; axis++) {
             uint32_t dims[3] = {1, 1, 1};
             dims[axis] = (uint32_t)strlen(column);
-            ewa_volume volume;
+            OWNED(ewa_volume_free) ewa_volume volume;
             assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
             for (uint32_t i = 0; i < dims[axis]; i++)
                 ((uint8_t *)volume.voxels)[i] = column[i] == 'i' ? 200 : column[i] == 'o' ? 100 : 3;
@@ -232,7 +219,6 @@ TEST_ON(test_sight, 1) {
             phantom_expect(column, sight.hit, cases[n].hit, cases[n].hit);
             phantom_expect(column, sight.hidden, cases[n].hidden, cases[n].hidden);
             phantom_expect(column, sight.apart, cases[n].apart, cases[n].apart);
-            ewa_volume_free(&volume);
         }
     }
 }

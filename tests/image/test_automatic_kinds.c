@@ -77,7 +77,7 @@ static void fill_labels(ewa_volume *volume, bool body) {
 TEST_ON(test_labels, 1) {
     static const ewa_type types[] = {EWA_U8, EWA_I16, EWA_F32};
     for (int n = 0; n < 6; n++) {
-        ewa_volume volume = make_volume(context, types[n % 3]);
+        OWNED(ewa_volume_free) ewa_volume volume = make_volume(context, types[n % 3]);
         const bool body = n >= 3;
         fill_labels(&volume, body);
         assert_int_equal(kind_of(&volume), EWA_KIND_LABELS);
@@ -97,7 +97,6 @@ TEST_ON(test_labels, 1) {
             else
                 phantom_expect("depth of an organ", 20 * extinction, 5, 1000);
         }
-        ewa_volume_free(&volume);
     }
 }
 
@@ -114,7 +113,7 @@ TEST_ON(test_no_labels, 1) {
         assert_true(kind_of(&volume) != EWA_KIND_LABELS);
     }
     ewa_volume_free(&volume);
-    phantom scene = phantom_make(12);
+    OWNED(phantom_free) phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 50, 70, 90, 130);
     for (int noise = 0; noise <= 6; noise += 2) {
         const phantom_scan scan = {12, noise, true};
@@ -122,7 +121,6 @@ TEST_ON(test_no_labels, 1) {
         assert_int_equal(kind_of(&volume), EWA_KIND_SCAN);
         ewa_volume_free(&volume);
     }
-    phantom_free(&scene);
 }
 
 /// Optical depth along a line of voxels parallel to x.
@@ -136,7 +134,7 @@ static double depth_along(const ewa_volume *volume, const ewa_transfer *transfer
 /// A hydrogen atom, |3d z2|^2: two lobes, and a ring of a quarter of their density, are seen; what is far off is not. The
 /// same in other units.
 TEST_ON(test_field, 1) {
-    ewa_volume volume = make_volume(context, EWA_F32);
+    OWNED(ewa_volume_free) ewa_volume volume = make_volume(context, EWA_F32);
     float *numbers = volume.voxels;
     for (int n = 0; n < 3; n++) {
         const double scale = n == 0 ? 1 : n == 1 ? 1e-9 : 1e9;
@@ -157,12 +155,11 @@ TEST_ON(test_field, 1) {
         phantom_expect("ring", depth_along(&volume, &transfer, middle + reach, middle), 0.4, 8);
         phantom_expect("far off", depth_along(&volume, &transfer, 2, 2), 0, 0);
     }
-    ewa_volume_free(&volume);
 }
 
 /// What is smooth within its slices, and not across them, is a scan that was resampled.
 TEST_ON(test_smooth_slices, 1) {
-    ewa_volume volume = make_volume(context, EWA_F32);
+    OWNED(ewa_volume_free) ewa_volume volume = make_volume(context, EWA_F32);
     for (int axis = 1; axis < 3; axis++) {
         for (int i = 0; i < ALL; i++) {
             double p[3];
@@ -172,12 +169,11 @@ TEST_ON(test_smooth_slices, 1) {
         }
         assert_int_equal(kind_of(&volume), EWA_KIND_SCAN);
     }
-    ewa_volume_free(&volume);
 }
 
 /// Fields that reach the faces of the box have shells, too.
 TEST_ON(test_full_field, 1) {
-    ewa_volume volume = make_volume(context, EWA_F32);
+    OWNED(ewa_volume_free) ewa_volume volume = make_volume(context, EWA_F32);
     for (int i = 0; i < ALL; i++) {
         double p[3];
         place_of(i, p);
@@ -189,7 +185,6 @@ TEST_ON(test_full_field, 1) {
     phantom_expect("low", look_up(&transfer, -2.5, color), 0, 0);
     phantom_expect("outermost shell", transfer.points[1].value, 0.5, 2);
     assert_true(look_up(&transfer, 2.9, color) > 0.5);
-    ewa_volume_free(&volume);
 }
 
 /// One slice along any axis: greys that become lighter, all of it solid.
@@ -197,7 +192,7 @@ TEST_ON(test_picture, 1) {
     for (int axis = 0; axis < 3; axis++) {
         uint32_t dims[3] = {SIDE, SIDE, SIDE};
         dims[axis] = 1;
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
         check_random random = {3};
         for (int i = 0; i < LAYER; i++)
@@ -215,38 +210,32 @@ TEST_ON(test_picture, 1) {
             last = color[0];
         }
         phantom_expect("white", last, 1, 1);
-        ewa_volume_free(&volume);
     }
 }
 
 /// Noise is told of, and scans with noise are not.
-TEST(test_noise) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_volume volume = make_volume(context, EWA_U8);
+TEST_LOGGED(test_noise, 1) {
+    OWNED(ewa_volume_free) ewa_volume volume = make_volume(context, EWA_U8);
     check_random random = {11};
     for (int i = 0; i < ALL; i++) ((uint8_t *)volume.voxels)[i] = (uint8_t)check_uniform(&random, 0, 256);
     assert_int_equal(kind_of(&volume), EWA_KIND_NOISE);
     const ewa_transfer transfer = phantom_transfer(&volume);
-    assert_int_equal(log.count, 1);
-    assert_non_null(strstr(log.text, "nothing in common"));
+    assert_int_equal(log->count, 1);
+    assert_non_null(strstr(log->text, "nothing in common"));
     double depth = 0, color[3];
     for (int value = 0; value < 256; value++) depth += 128 * look_up(&transfer, value, color) / 256;
     phantom_expect("depth through the box", depth, 0.5, 3);
     ewa_volume_free(&volume);
-    phantom scene = phantom_make(12);
+    OWNED(phantom_free) phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 50, 70, 90, 130);
     const phantom_scan scan = {12, 9, false};
     volume = phantom_scan_it(context, &scene, &scan);
     assert_int_equal(kind_of(&volume), EWA_KIND_SCAN);
-    ewa_volume_free(&volume);
-    phantom_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// A nut packed in foam in a cup: lines of sight pass much of the foam, which lets the nut be seen.
 TEST_ON(test_packed, 1) {
-    phantom scene = phantom_make(12);
+    OWNED(phantom_free) phantom scene = phantom_make(12);
     phantom_add_walnut(&scene, 60, 3, false, 150, 110);
     check_random random = {7};
     for (int i = 0; i < PHANTOM_VOXELS; i++) {
@@ -256,13 +245,11 @@ TEST_ON(test_packed, 1) {
             scene.values[i] = 40, scene.material[i] = PHANTOM_BOX;
     }
     const phantom_scan scan = {12, 5, false};
-    ewa_volume volume = phantom_scan_it(context, &scene, &scan);
+    OWNED(ewa_volume_free) ewa_volume volume = phantom_scan_it(context, &scene, &scan);
     const ewa_transfer transfer = phantom_transfer(&volume);
     const phantom_seen nut = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_NUT);
     print_message("packed nut %.2f\n", nut.object);
     phantom_expect("nut", nut.object, 0.69, 1); // 0.67 by the mean chord of the foam's pieces
-    ewa_volume_free(&volume);
-    phantom_free(&scene);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -35,6 +35,7 @@ TEST_ON(test_constants_stay, 1) {
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         for (uint32_t channels = 1; channels <= 4; channels++) {
             if (channels == 2) continue;
+            OWNED(ewa_environment_destroy)
             ewa_environment *made = make(context, sizes[i][0], sizes[i][1], channels, constant);
             const ewa_environment_level *last = &made->levels[made->level_count - 1];
             assert_true(last->width == 1 && last->height == 1);
@@ -45,7 +46,6 @@ TEST_ON(test_constants_stay, 1) {
                     assert_true(fabsf(level->texels[t] - wanted) <= 1e-6f * wanted);
                 }
             }
-            ewa_environment_destroy(&made);
         }
 }
 
@@ -69,11 +69,10 @@ static double mean_of(const ewa_environment_level *level) {
 }
 
 TEST_ON(test_levels_keep_the_mean, 1) {
-    ewa_environment *made = make(context, 96, 48, 3, noise);
+    OWNED(ewa_environment_destroy) ewa_environment *made = make(context, 96, 48, 3, noise);
     const double mean = mean_of(&made->levels[0]);
     for (uint32_t k = 1; k < made->level_count; k++)
         assert_true(fabs(mean_of(&made->levels[k]) / mean - 1) < 1e-3);
-    ewa_environment_destroy(&made);
 }
 
 /// A single bright texel in the uppermost row covers as much of the sphere as one texel on the equator: a
@@ -85,7 +84,7 @@ static float lone_texel(uint32_t x, uint32_t y, uint32_t channel) {
 
 TEST_ON(test_texels_are_round, 1) {
     enum { WIDTH = 64, HEIGHT = 32 };
-    ewa_environment *made = make(context, WIDTH, HEIGHT, 1, lone_texel);
+    OWNED(ewa_environment_destroy) ewa_environment *made = make(context, WIDTH, HEIGHT, 1, lone_texel);
     const float *row = made->levels[0].texels;
     uint32_t bright = 0;
     double sum = 0;
@@ -98,7 +97,6 @@ TEST_ON(test_texels_are_round, 1) {
     const float *equator = row + 3 * 16 * WIDTH;
     // sin of half a texel from the equator: texels there are wider than high by a thousandth.
     assert_true(fabsf(equator[3 * 40] - 1) < 2e-3f && fabsf(equator[3 * 39]) < 2e-3f);
-    ewa_environment_destroy(&made);
 }
 
 static float wild(uint32_t x, uint32_t y, uint32_t channel) {
@@ -106,9 +104,7 @@ static float wild(uint32_t x, uint32_t y, uint32_t channel) {
     return values[(x + y + channel) % 6];
 }
 
-TEST(test_wild_numbers) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_wild_numbers, 1) {
     ewa_environment *made = make(context, 12, 6, 3, wild);
     for (uint32_t k = 0; k < made->level_count; k++)
         for (size_t t = 0; t < 3 * (size_t)made->levels[k].width * made->levels[k].height; t++)
@@ -118,14 +114,13 @@ TEST(test_wild_numbers) {
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 2, 2, 2, &image), EWA_OK);
     assert_int_equal(ewa_environment_create(&image, &made), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "2 channels"));
+    assert_non_null(strstr(log->text, "2 channels"));
     assert_null(made);
     image.width_px = 0; // pixels without a size
     assert_int_equal(ewa_environment_create(&image, &made), EWA_ERROR_ARGUMENT);
     image.width_px = 2;
     ewa_image_free(&image);
     assert_int_equal(ewa_environment_create(&image, &made), EWA_ERROR_ARGUMENT);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

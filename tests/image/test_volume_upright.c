@@ -67,11 +67,11 @@ static const char *found(const ewa_volume *volume, char text[4]) {
 TEST(test_every_way) {
     static body *const bodies[] = {head_on_neck, slices_of_head};
     static const char *const names[2][3] = {{"", "-y", "-z"}, {"", "y", "z"}}; // x is never up
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     for (int b = 0; b < 2; b++)
         for (int axis = 0; axis < 3; axis++)
             for (int last = 0; last < 2; last++) {
-                ewa_volume volume;
+                OWNED(ewa_volume_free) ewa_volume volume;
                 char text[4];
                 const uint32_t dims[3] = {SIDE, SIDE + 9, SIDE - 8};
                 assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
@@ -85,16 +85,14 @@ TEST(test_every_way) {
                 }
                 static const char *const turned[2][3] = {{"-z", "-y", ""}, {"z", "y", ""}};
                 assert_string_equal(found(&volume, text), turned[last][axis]);
-                ewa_volume_free(&volume);
             }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_nothing_tells) {
     static body *const bodies[] = {ball, column, frame};
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     const uint32_t dims[3] = {SIDE, SIDE, SIDE}, slice[3] = {SIDE, SIDE, 1};
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     char text[4];
     for (int b = 0; b < 3; b++) {
         assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
@@ -111,15 +109,12 @@ TEST(test_nothing_tells) {
     float *voxels = volume.voxels;
     for (size_t i = 0; i < (size_t)SIDE * SIDE * SIDE; i++) voxels[i] = i % 2 ? NAN : INFINITY;
     assert_string_equal(found(&volume, text), "");
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// A few values far beyond all others, and voxels that are none, change nothing; nor does a volume of many voxels.
-TEST(test_outliers) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_outliers, 1) {
     const uint32_t dims[3] = {150, 140, 260};
-    ewa_volume bytes, floats;
+    OWNED(ewa_volume_free) ewa_volume bytes, floats;
     char text[4];
     assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &bytes), EWA_OK);
     assert_int_equal(ewa_volume_create(context, dims, EWA_F32, &floats), EWA_OK);
@@ -130,9 +125,6 @@ TEST(test_outliers) {
     for (size_t i = 0; i < count; i++) to[i] = i % 9973 == 0 ? 1e9f : i % 1009 == 0 ? NAN : (float)from[i];
     assert_string_equal(found(&bytes, text), "-z");
     assert_string_equal(found(&floats, text), "-z");
-    ewa_volume_free(&bytes);
-    ewa_volume_free(&floats);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_memory) {
@@ -141,10 +133,10 @@ TEST(test_memory) {
     ewa_context_options_init(&options, sizeof options);
     options.allocator = check_allocator(&memory);
     options.thread_count = 1;
-    ewa_context *context;
+    OWNED(ewa_context_destroy) ewa_context *context;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     const uint32_t dims[3] = {SIDE, SIDE, SIDE};
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
     fill(&volume, head_on_neck, 2, true);
     for (long which = 0; which < 2; which++) {
@@ -155,8 +147,6 @@ TEST(test_memory) {
         memory.calls_left = -1;
         assert_null(why);
     }
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

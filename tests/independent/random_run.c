@@ -4,6 +4,7 @@
 // A scene drawn three times, and how far the pictures are from each other.
 #include "reference/surface.h"
 #include "tests/independent/random_scene.h"
+#include "tests/owned.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -139,11 +140,10 @@ bool random_scene_run(ewa_context *context, random_scene *made, const char *keep
                                       &made->scene.camera, &made->scene.options, &frames[1]);
     }
     if (status == EWA_OK) {
-        independent_picture truth = independent_render(&made->scene);
+        OWNED(independent_free) independent_picture truth = independent_render(&made->scene);
         result->pipeline = random_scene_compare(&truth, &frames[0]);
         result->reference = random_scene_compare(&truth, &frames[1]);
         if (keep) keep_pictures(context, keep, &made->scene.camera, &truth, frames);
-        independent_free(&truth);
     }
     for (int i = 0; i < 2; i++) free_frame(&frames[i]);
     ewa_renderer_destroy(&renderer);

@@ -52,16 +52,15 @@ static void hold_same(const planes *a, const planes *b, const char *what, uint64
 /// Moves entry order[i] of an array of packets to entry i.
 static void permute(void *array, size_t size_bytes, const uint32_t *order, uint32_t count) {
     if (!array) return;
-    char *copy = malloc(size_bytes * count);
+    OWNED(check_free) char *copy = malloc(size_bytes * count);
     assert_non_null(copy);
     memcpy(copy, array, size_bytes * count);
     for (uint32_t i = 0; i < count; i++)
         memcpy((char *)array + size_bytes * i, copy + size_bytes * order[i], size_bytes);
-    free(copy);
 }
 
 static void shuffle_packets(ewa_surfels *s, check_random *random) {
-    uint32_t *order = malloc(s->packet_count * sizeof *order);
+    OWNED(check_free) uint32_t *order = malloc(s->packet_count * sizeof *order);
     assert_non_null(order);
     for (uint32_t i = 0; i < s->packet_count; i++) {
         const uint32_t j = (uint32_t)(check_random_u64(random) % (i + 1));
@@ -84,7 +83,6 @@ static void shuffle_packets(ewa_surfels *s, check_random *random) {
                   {s->bounds.cone, sizeof *s->bounds.cone}};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         permute(arrays[i].array, arrays[i].size_bytes, order, s->packet_count);
-    free(order);
 }
 
 enum { MAX_PARTS = 7, VECTOR = 16 };
@@ -134,23 +132,21 @@ static void hold_machines(const ewa_surfels *surfels, const random_scene *made, 
         WITH_DEFAULTS(ewa_context_options, options);
         options.cpu_mask = machines[i].cpu_mask;
         options.thread_count = machines[i].threads;
-        ewa_context *context = NULL;
+        OWNED(ewa_context_destroy) ewa_context *context = NULL;
         assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-        ewa_renderer *renderer = check_renderer(context);
+        OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
         draw_parts(renderer, surfels, machines[i].parts, made, &other->frame, random);
         hold_same(first, other, "another machine", seed, made->words);
-        ewa_renderer_destroy(&renderer);
-        ewa_context_destroy(&context);
     }
 }
 
 static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) {
     static const uint32_t tiles_px[] = {128, 64, 32, 16};
     check_random random = {seed + 1};
-    planes first, other;
+    OWNED(planes_free) planes first, other;
     planes_make(&first, &made->scene.camera);
     planes_make(&other, &made->scene.camera);
-    ewa_surfels *surfels = check_surfels(made->cloud, &made->surfels_options);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(made->cloud, &made->surfels_options);
     ewa_renderer *renderer = check_renderer(context);
     const ewa_camera *camera = &made->scene.camera;
     const ewa_render_options *options = &made->scene.options;
@@ -172,17 +168,13 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
     }
     ewa_renderer_destroy(&renderer);
     hold_machines(surfels, made, seed, &first, &other, &random);
-    ewa_surfels_destroy(&surfels);
-    planes_free(&first);
-    planes_free(&other);
 }
 
 TEST_ON(test_random, 0) {
     for (uint64_t seed = 0; seed < EWA_RANDOM_SCENES; seed++) {
-        random_scene made;
+        OWNED(random_scene_free) random_scene made;
         random_scene_make(context, seed, &made);
         hold_scene(context, seed, &made);
-        random_scene_free(&made);
     }
 }
 

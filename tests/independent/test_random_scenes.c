@@ -54,10 +54,9 @@ static double hold(ewa_context *context, const char *set, uint64_t number, rando
 TEST_ON(test_random, 0) {
     double pipeline[SCENES];
     for (uint64_t i = 0; i < SCENES; i++) {
-        random_scene made;
+        OWNED(random_scene_free) random_scene made;
         random_scene_make(context, i, &made);
         pipeline[i] = hold(context, "random", i, &made);
-        random_scene_free(&made);
     }
     qsort(pipeline, SCENES, sizeof *pipeline, compare_doubles);
     print_message("pipeline: least %.1f, median %.1f dB\n", pipeline[0], pipeline[SCENES / 2]);
@@ -74,14 +73,15 @@ TEST_ON(test_named, 0) {
 
 /// The scale must not read zero where something is wrong.
 TEST_ON(test_distance, 0) {
-    random_scene made;
+    OWNED(random_scene_free) random_scene made;
     random_scene_make(context, 1, &made);
     made.scene.unit_coverage = 0.5;
-    independent_picture truth = independent_render(&made.scene);
+    OWNED(independent_free) independent_picture truth = independent_render(&made.scene);
     const size_t count = (size_t)truth.width_px * truth.height_px;
+    OWNED(check_free)
     float *rgba = calloc(4 * count, sizeof *rgba), *depth = calloc(count, sizeof *depth),
           *normal = calloc(3 * count, sizeof *normal), *coverage = calloc(count, sizeof *coverage);
-    uint8_t *rgba8 = calloc(4 * count, 1);
+    OWNED(check_free) uint8_t *rgba8 = calloc(4 * count, 1);
     assert_true(rgba && depth && normal && coverage && rgba8);
     const ewa_frame frame = {
         .rgba8 = rgba8, .rgba = rgba, .depth = depth, .normal = normal, .coverage = coverage};
@@ -102,9 +102,6 @@ TEST_ON(test_distance, 0) {
     assert_true(random_scene_compare(&truth, &frame).color_db < wanted);
     rgba8[3] ^= 0x80;
     assert_int_equal(random_scene_compare(&truth, &frame).codes_over, 1);
-    free(rgba), free(depth), free(normal), free(coverage), free(rgba8);
-    independent_free(&truth);
-    random_scene_free(&made);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

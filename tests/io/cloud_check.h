@@ -66,8 +66,8 @@ static inline void cloud_check_pieces(const cloud_bytes *file, const char *name,
     char path[512];
     scratch_write(scratch_path(name, path), file->bytes, file->size);
     for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
-        ewa_context *context = check_context(ways[w].threads, NULL);
-        ewa_cloud_reader *reader = NULL;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(ways[w].threads, NULL);
+        OWNED(ewa_cloud_reader_close) ewa_cloud_reader *reader = NULL;
         ewa_cloud *piece = NULL;
         uint64_t first = 0;
         assert_int_equal(ewa_cloud_reader_open(context, path, NULL, &reader), EWA_OK);
@@ -85,8 +85,6 @@ static inline void cloud_check_pieces(const cloud_bytes *file, const char *name,
             ewa_cloud_destroy(&piece);
         }
         assert_int_equal(first, ewa_cloud_point_count(whole));
-        ewa_cloud_reader_close(&reader);
-        ewa_context_destroy(&context);
     }
     unlink(path);
 }
@@ -114,11 +112,11 @@ static inline ewa_cloud *cloud_keep_going(ewa_context *context, const cloud_byte
 /// names it, from memory that ends with the file; with keep_going it is read without harm.
 static inline void cloud_check_truncations(const cloud_bytes *file, const char *name, size_t spare) {
     check_log log;
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t size = 0; size < file->size; size++) {
-        uint8_t *bytes = malloc(size + !size);
+        OWNED(check_free) uint8_t *bytes = malloc(size + !size);
         memcpy(bytes, file->bytes, size);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         log = (check_log){0};
         const ewa_status status = ewa_cloud_load_memory(context, bytes, size, name, &cloud);
         if (status == EWA_OK && size + spare < file->size) fail_msg("%zu bytes of %s are taken", size, name);
@@ -128,30 +126,24 @@ static inline void cloud_check_truncations(const cloud_bytes *file, const char *
         uint64_t lost_count;
         const cloud_bytes cut = {bytes, size, size};
         cloud = cloud_keep_going(context, &cut, name, &lost_count);
-        ewa_cloud_destroy(&cloud);
-        free(bytes);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Loads a file `count` times with some bytes changed: it is read or refused with a message.
 static inline void cloud_check_changes(const cloud_bytes *file, const char *name, int count) {
     check_log log;
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     check_random random = {77};
     for (int i = 0; i < count; i++) {
-        uint8_t *bytes = malloc(file->size);
+        OWNED(check_free) uint8_t *bytes = malloc(file->size);
         memcpy(bytes, file->bytes, file->size);
         for (uint64_t k = 1 + check_random_u64(&random) % 3; k > 0; k--)
             bytes[check_random_u64(&random) % file->size] = (uint8_t)check_random_u64(&random);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         log = (check_log){0};
         const ewa_status status = ewa_cloud_load_memory(context, bytes, file->size, name, &cloud);
         assert_true(status == EWA_OK || log.count > 0);
-        ewa_cloud_destroy(&cloud);
-        free(bytes);
     }
-    ewa_context_destroy(&context);
 }
 
 #endif

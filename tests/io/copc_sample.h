@@ -69,9 +69,9 @@ typedef struct copc_nodes {
 static inline copc_nodes copc_share(const ewa_cloud *cloud, int32_t level_count) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
-    ewa_octree_key *all = calloc(count + 1, sizeof *all);
-    uint64_t *indices = malloc((count + 1) * sizeof *indices);
-    bool *taken = calloc(count + 1, 1);
+    OWNED(check_free) ewa_octree_key *all = calloc(count + 1, sizeof *all);
+    OWNED(check_free) uint64_t *indices = malloc((count + 1) * sizeof *indices);
+    OWNED(check_free) bool *taken = calloc(count + 1, 1);
     copc_nodes nodes = {calloc(count + 1, sizeof *nodes.keys), calloc(count + 1, sizeof(ewa_cloud *)), 0};
     assert_true(all && indices && taken && nodes.keys && nodes.pieces);
     for (uint64_t i = 0; i < count; i++) {
@@ -92,9 +92,6 @@ static inline copc_nodes copc_share(const ewa_cloud *cloud, int32_t level_count)
         nodes.keys[nodes.count] = all[i];
         assert_int_equal(ewa_cloud_select(cloud, indices, kept, &nodes.pieces[nodes.count++]), EWA_OK);
     }
-    free(all);
-    free(indices);
-    free(taken);
     return nodes;
 }
 
@@ -176,14 +173,13 @@ static inline uint8_t *copc_rows(ewa_cloud *const *clouds, uint32_t cloud_count,
 /// Reads all nodes of a tree; the caller destroys the clouds and frees the array.
 static inline ewa_cloud **copc_read_all(ewa_octree *octree, ewa_status *status) {
     const uint32_t count = ewa_octree_describe(octree)->node_count;
-    uint32_t *indices = malloc((count + 1) * sizeof *indices);
+    OWNED(check_free) uint32_t *indices = malloc((count + 1) * sizeof *indices);
     ewa_cloud **clouds = calloc(count + 1, sizeof *clouds);
     assert_true(indices && clouds);
     // In an order that is not the file's.
     for (uint32_t i = 0; i < count; i++) indices[i] = count - 1 - i;
     *status = ewa_octree_read(octree, indices, count, NULL, clouds);
     for (uint32_t i = 0; i < count; i++) assert_int_equal(clouds[i] != NULL, *status == EWA_OK);
-    free(indices);
     return clouds;
 }
 
@@ -194,7 +190,7 @@ static inline void copc_free_all(ewa_cloud **clouds, uint32_t count) {
 
 /// Opens an octree and reads all of its nodes; the first failure.
 static inline ewa_status copc_open_and_read(ewa_context *of, const char *name) {
-    ewa_octree *octree = NULL;
+    OWNED(ewa_octree_close) ewa_octree *octree = NULL;
     ewa_status status = ewa_octree_open(of, name, &octree);
     if (status == EWA_OK) {
         const uint32_t count = ewa_octree_describe(octree)->node_count;
@@ -203,7 +199,6 @@ static inline ewa_status copc_open_and_read(ewa_context *of, const char *name) {
     } else {
         assert_null(octree);
     }
-    ewa_octree_close(&octree);
     return status;
 }
 

@@ -8,7 +8,7 @@
 
 /// Rows from the north, points in the middles of cells, none where there is no height.
 TEST_WITHIN(test_places, set_up, tear_down) {
-    ewa_cloud *cloud = rows_load(HEAD "NODATA_value -1\n1 2 3\n4 -1.0 6.5\n");
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(HEAD "NODATA_value -1\n1 2 3\n4 -1.0 6.5\n");
     rows_expect(cloud, 5, "position");
     rows_find(cloud, EWA_POSITION, EWA_F64, 3);
     rows_expect_world(cloud, 0, 105, 65, 1);
@@ -30,11 +30,11 @@ TEST_WITHIN(test_places, set_up, tear_down) {
     ewa_cloud_origin(cloud, origin_world);
     assert_true(origin_world[0] == 4200000 && origin_world[1] == 5200000 && origin_world[2] == 0);
     rows_expect_world(cloud, 0, 4200000.5, 5200000.25, 7);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Degrees with heights in metres, which slopes tell, become metres; of marks and gentle slopes nothing is said.
 TEST_WITHIN(test_degrees, set_up, tear_down) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = rows_load("ncols 3\nnrows 2\nxllcorner 7\nyllcorner 49.99\ncellsize 0.01\n"
                                  "-9999 200 230\n190 -9999 250\n");
     rows_expect(cloud, 4, "position");
@@ -48,7 +48,6 @@ TEST_WITHIN(test_degrees, set_up, tear_down) {
     cloud = rows_load("ncols 3\nnrows 2\nxllcorner 7\nyllcorner 49\ncellsize 1\n-9999 8 9\n7 -9999 9\n");
     rows_expect_world(cloud, 0, 8.5, 50.5, 8);
     assert_null(ewa_cloud_note(cloud, "file.degrees", NULL));
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_refused, set_up, tear_down) {
@@ -74,14 +73,13 @@ TEST_WITHIN(test_refused, set_up, tear_down) {
 TEST_WITHIN(test_keep_going, set_up, tear_down) {
     WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     uint64_t lost_count = 0;
     assert_int_equal(rows_read(HEAD "1 2x 3\n4", &options, &cloud, &lost_count), EWA_OK);
     assert_int_equal(lost_count, 3); // a word, and two cells that are not there
     rows_expect(cloud, 3, "position");
     rows_expect_world(cloud, 1, 125, 65, 3); // in its own cell
     rows_expect_world(cloud, 2, 105, 55, 4);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Cut anywhere it is refused, but within the last number, which only is a shorter one.
@@ -89,17 +87,15 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
     const char *text = HEAD "1 2 3\n4 5 678\n";
     const size_t length = strlen(text);
     for (size_t cut = 0; cut < length; cut++) {
-        char *part = malloc(cut + 1);
+        OWNED(check_free) char *part = malloc(cut + 1);
         assert_non_null(part);
         memcpy(part, text, cut);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         const ewa_status status = ewa_cloud_load_memory(context, cut ? part : "", cut, "t", &cloud);
         if (cut + 3 >= length)
             assert_int_equal(status, EWA_OK);
         else
             assert_int_not_equal(status, EWA_OK);
-        ewa_cloud_destroy(&cloud);
-        free(part);
     }
 }
 

@@ -86,9 +86,7 @@ TEST_ON(test_open3d_middle, 1) {
 }
 
 /// A lens comes from every format, without the pose, and from Open3D's file of a lens alone.
-TEST(test_lens) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_lens, 1) {
     static const char alone[] =
         "{\"width\":640,\"height\":480,\"intrinsic_matrix\":[500,0,0, 0,510,0, 319.625,-8,1]}";
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, STACKS, alone};
@@ -103,7 +101,7 @@ TEST(test_lens) {
         assert_true(lens.cx_px == 320.125 && lens.cy_px == -7.5);
         assert_memory_equal(lens.world_to_camera, at_origin.world_to_camera, sizeof lens.world_to_camera);
     }
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     // What cannot be read leaves the lens as it is, with a message.
     static const char *const broken[] = {
         "{\"width\":640,\"intrinsic_matrix\":[1,0,0,0,1,0,0,0,1]}",
@@ -116,15 +114,12 @@ TEST(test_lens) {
         ewa_camera_init(&before);
         scratch_write(scratch_path("lens.json", path), broken[i], strlen(broken[i]));
         assert_int_equal(ewa_camera_load_lens(context, path, &lens), EWA_ERROR_FORMAT);
-        assert_int_equal(log.count, i + 1);
+        assert_int_equal(log->count, i + 1);
         assert_memory_equal(&lens, &before, sizeof lens);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_many_cameras) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_many_cameras, 1) {
     char path[512], text[2000];
     ewa_camera camera;
     snprintf(text, sizeof text, "[%s,\n%s]\n", NATIVE, NATIVE);
@@ -134,13 +129,12 @@ TEST(test_many_cameras) {
     assert_int_equal(load_text(context, text, 0, &camera), EWA_OK);
     assert_int_equal(camera.width_px, 740);
     assert_int_equal(load_text(context, text, 2, &camera), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "camera 2 wanted, 2 there"));
+    assert_non_null(strstr(log->text, "camera 2 wanted, 2 there"));
     assert_int_equal(count_cameras(context, scratch_path("camera.json", path)), 2);
     snprintf(text, sizeof text, "{\"class_name\":\"PinholeCameraTrajectory\",\"parameters\":[%s,%s]}", OPEN3D,
              OPEN3D);
     assert_int_equal(load_text(context, text, 1, &camera), EWA_OK);
     assert_expected(&camera, 320.125, -7.5);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_round_trip_is_exact, 1) {
@@ -167,9 +161,7 @@ TEST_ON(test_round_trip_is_exact, 1) {
     }
 }
 
-TEST(test_transforms_lens) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_transforms_lens, 1) {
     ewa_camera camera;
     // The lens by angles; members of a frame win.
     assert_int_equal(load_text(context,
@@ -187,7 +179,7 @@ TEST(test_transforms_lens) {
     assert_int_equal(ewa_camera_load(context, scratch_path("camera.json", path), 1, &camera), EWA_OK);
     assert_true(camera.width_px == 100 && camera.fx_px == 70 && camera.fy_px == 70);
     assert_true(camera.cx_px == 12.5 && camera.cy_px == 25);
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     // Poses of the synthetic NeRF scenes without their pictures.
     assert_int_equal(load_text(context,
                                "{\"camera_angle_x\":1.5707963267948966,\"frames\":[{\"file_path\":\"./train/r_0\",\"transform_matrix\":"
@@ -195,25 +187,24 @@ TEST(test_transforms_lens) {
                                0, &camera),
                      EWA_OK);
     assert_true(camera.width_px == 800 && camera.height_px == 800 && fabs(camera.fx_px - 400) < 1e-12);
-    assert_non_null(strstr(log.text, "frames[0]: says no size"));
-    assert_int_equal(log.count, 1);
+    assert_non_null(strstr(log->text, "frames[0]: says no size"));
+    assert_int_equal(log->count, 1);
     // Distortion is left out with a warning, a fisheye refused.
     assert_int_equal(load_text(context,
                                "{\"fl_x\":7,\"w\":640,\"h\":480,\"k1\":0.1,\"frames\":["
                                "{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
                                0, &camera),
                      EWA_OK);
-    assert_non_null(strstr(log.text, "k1 = 0.1"));
+    assert_non_null(strstr(log->text, "k1 = 0.1"));
     assert_int_equal(
         load_text(context,
                   "{\"fl_x\":7,\"w\":640,\"h\":480,\"camera_model\":\"OPENCV_FISHEYE\",\"frames\":["
                   "{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
                   0, &camera),
         EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "camera_model"));
+    assert_non_null(strstr(log->text, "camera_model"));
     assert_int_equal(load_text(context, "{\"camera_type\":\"equirectangular\",\"camera_path\":[{}]}", 0, &camera), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "'camera_type' is equirectangular, not perspective"));
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "'camera_type' is equirectangular, not perspective"));
 }
 
 TEST(test_messages_name_the_member) {
@@ -288,7 +279,7 @@ TEST(test_messages_name_the_member) {
          "cameras[0]: world_to_camera[0] is"},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         ewa_camera camera, before;
         ewa_camera_init(&before);
@@ -303,26 +294,20 @@ TEST(test_messages_name_the_member) {
     ewa_camera camera;
     ewa_camera_init(&camera);
     assert_int_equal(ewa_camera_load(context, "/nowhere/camera.json", 0, &camera), EWA_ERROR_IO);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_every_truncation_is_refused) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_truncation_is_refused, 1) {
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, INRIA, STACKS, CAMERA_PATH};
     for (size_t t = 0; t < sizeof texts / sizeof texts[0]; t++) {
         const size_t size_bytes = strlen(texts[t]);
         for (size_t length = 0; length <= size_bytes; length++) {
-            uint8_t *exact = malloc(length ? length : 1);
+            OWNED(check_free) uint8_t *exact = malloc(length ? length : 1);
             memcpy(exact, texts[t], length);
-            ewa_camera_list list = {.context = context, .name = "cut.json"};
+            OWNED(ewa_camera_list_free) ewa_camera_list list = {.context = context, .name = "cut.json"};
             const ewa_status status = ewa_camera_list_read_json(&list, NULL, exact, length);
             assert_int_equal(status, length == size_bytes ? EWA_OK : EWA_ERROR_FORMAT);
-            ewa_camera_list_free(&list);
-            free(exact);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 /// The cameras that ewa_camera_load_each() hands over.
@@ -366,9 +351,7 @@ TEST_ON(test_list, 1) {
     assert_int_equal(all.count, 0);
 }
 
-TEST(test_refuses_to_write_nonsense) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_refuses_to_write_nonsense, 1) {
     char path[512];
     remove(scratch_path("never.json", path));
     ewa_camera camera;
@@ -376,9 +359,8 @@ TEST(test_refuses_to_write_nonsense) {
     assert_int_equal(ewa_camera_save(context, &camera, "/nowhere/camera.json"), EWA_ERROR_IO);
     camera.cx_px = NAN;
     assert_int_equal(ewa_camera_save(context, &camera, path), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "cx_px"));
+    assert_non_null(strstr(log->text, "cx_px"));
     assert_int_equal(access(path, F_OK), -1);
-    ewa_context_destroy(&context);
 }
 
 static const char LENSES_TEXT[] = "# Camera list\n\n7 PINHOLE 640 480 500 510 320.125 -7.5\n"
@@ -441,7 +423,7 @@ static void check_colmap(ewa_context *context, check_log *log, const char *folde
 
 TEST(test_colmap) {
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     static const char *const names[] = {"cameras.txt", "images.txt", "cameras.bin", "images.bin"};
     char folder[512], path[600];
     scratch_path("colmap", folder);
@@ -468,7 +450,6 @@ TEST(test_colmap) {
     scratch_write(path, images.bytes, images.size_bytes);
     log = (check_log){0};
     check_colmap(context, &log, folder);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status read_colmap(ewa_context *context, bool is_text, const void *lenses, size_t lenses_bytes,
@@ -489,7 +470,7 @@ static ewa_status read_colmap(ewa_context *context, bool is_text, const void *le
 
 TEST(test_broken_colmap) {
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     packer lenses, images;
     make_binary(&lenses, &images);
     for (size_t length = 0; length < lenses.size_bytes; length++)
@@ -529,12 +510,9 @@ TEST(test_broken_colmap) {
                              EWA_OK);
         if (!strstr(log.text, cases[i].said)) fail_msg("said '%s', not '%s'", log.text, cases[i].said);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_real_files) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_real_files, 1) {
     char path[512];
     ewa_camera camera;
     ewa_camera_init(&camera);
@@ -557,9 +535,8 @@ TEST(test_real_files) {
     }
     if (check_data("rgbd/livingroom/camera_primesense.json", path, sizeof path)) {
         assert_int_equal(ewa_camera_load(context, path, 0, &camera), EWA_ERROR_FORMAT);
-        assert_non_null(strstr(log.text, "'extrinsic' is missing"));
+        assert_non_null(strstr(log->text, "'extrinsic' is missing"));
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_status save_and_load_work(ewa_context *context, void *user) {

@@ -32,12 +32,11 @@
     " <chunk><cameras><camera id=\"0\" sensor_id=\"7\"><transform>1</transform></camera></cameras></chunk>\n</document>"
 
 static ewa_status read_text(ewa_context *context, const char *text, size_t length, bool takes_lenses, ewa_camera_list *list) {
-    uint8_t *bytes = malloc(length ? length : 1); // of just this size, for the sanitizer
+    OWNED(check_free) uint8_t *bytes = malloc(length ? length : 1); // of just this size, for the sanitizer
     assert_non_null(bytes);
     memcpy(bytes, text, length);
     *list = (ewa_camera_list){.context = context, .name = "cameras.xml", .takes_lenses = takes_lenses};
     const ewa_status status = ewa_camera_list_read_metashape(list, bytes, length);
-    free(bytes);
     return status;
 }
 
@@ -48,14 +47,12 @@ static const char *make_text(const char *kind, const char *numbers) {
     return text;
 }
 
-TEST(test_places_and_lenses) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_places_and_lenses, 1) {
     ewa_camera_list list;
     const char *text = make_text("frame", "<k1>0.1</k1><k2>-0.2</k2><k3>0.3</k3><p1>0.01</p1><p2>0.02</p2>");
     assert_int_equal(read_text(context, text, strlen(text), true, &list), EWA_OK);
     assert_int_equal(list.count, 1);
-    assert_non_null(strstr(log.text, "1 cameras are left out"));
+    assert_non_null(strstr(log->text, "1 cameras are left out"));
     const ewa_camera *camera = list.cameras;
     assert_true(camera->width_px == 640 && camera->height_px == 480);
     assert_true(camera->fx_px == 500 && camera->fy_px == 510 && camera->cx_px == 320.125 && camera->cy_px == -7.5);
@@ -78,7 +75,7 @@ TEST(test_places_and_lenses) {
     assert_true(list.lenses[0].model == EWA_LENS_FISHEYE && list.lenses[0].radial[3] == 0.4);
     ewa_camera_list_free(&list);
     assert_int_equal(read_text(context, text, strlen(text), false, &list), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "no pinhole, of the type 'fisheye'"));
+    assert_non_null(strstr(log->text, "no pinhole, of the type 'fisheye'"));
     ewa_camera_list_free(&list);
 
     text = make_text("frame", "<k1>0.1</k1>");
@@ -88,19 +85,16 @@ TEST(test_places_and_lenses) {
     char path[512], picture[512];
     scratch_write(scratch_path("cameras.xml", path), text, strlen(text));
     scratch_write(scratch_path("DSC 1.JPG", picture), "x", 1);
-    ewa_photo_list *photos;
+    OWNED(ewa_photo_list_destroy) ewa_photo_list *photos;
     uint32_t count;
     assert_int_equal(ewa_photo_list_load(context, path, NULL, &photos), EWA_OK);
     assert_non_null(strstr(ewa_photo_list_photos(photos, &count)->path, "DSC 1.JPG"));
     assert_int_equal(count, 1);
-    ewa_photo_list_destroy(&photos);
-    ewa_context_destroy(&context);
 }
 
 /// A chunk of a version without components has the map itself.
-TEST(test_old_chunk) {
-    ewa_context *context = check_context(1, NULL);
-    ewa_camera_list list;
+TEST_ON(test_old_chunk, 1) {
+    OWNED(ewa_camera_list_free) ewa_camera_list list;
     static const char text[] =
         "<document><chunk><sensors><sensor id=\"3\" type=\"frame\"><resolution width=\"8\" height=\"6\"/><calibration><f>7</f>"
         "</calibration></sensor></sensors><cameras><camera id=\"0\" sensor_id=\"3\" label=\"a\"><transform>1 0 0 1 0 1 0 0 0 0 1 0 "
@@ -110,13 +104,11 @@ TEST(test_old_chunk) {
     ewa_camera_eye(&list.cameras[0], eye);
     assert_true(eye[0] == 2 && eye[1] == 2 && eye[2] == 3);
     assert_true(list.lenses[0].model == EWA_LENS_PINHOLE && list.cameras[0].cx_px == 4 && list.cameras[0].fx_px == 7);
-    ewa_camera_list_free(&list);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_broken) {
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_camera_list list;
     static char broken[4000];
     const char *whole = make_text("frame", "<k1>0.1</k1>");
@@ -161,7 +153,6 @@ TEST(test_broken) {
     scratch_write(scratch_path("page.xml", path), "<html></html>", 13);
     assert_int_equal(ewa_camera_load(context, path, 0, &camera), EWA_ERROR_FORMAT);
     assert_non_null(strstr(log.text, "no whole file of Metashape's cameras"));
-    ewa_context_destroy(&context);
 }
 
 TEST(test_failing_allocations) {

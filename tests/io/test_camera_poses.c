@@ -32,24 +32,22 @@ static const char TUM[] = "# time tx ty tz qx qy qz qw\n1305031102.17 1 2 3 0 0 
                           "1305031102.21 4 5 6 0 0 0.7071067811865476 0.7071067811865476\n";
 
 TEST_ON(test_matrices, 1) {
-    ewa_camera_list list;
+    OWNED(ewa_camera_list_free) ewa_camera_list list;
     assert_int_equal(read_text(context, MATRICES, &list), EWA_OK);
     assert_int_equal(list.count, 2);
     expect_eye(&list.cameras[0], 1.5, -2, 3);
     expect_eye(&list.cameras[1], 4, 5, 6);
     // Camera to world takes x to y: world to camera takes y to x.
     assert_true(list.cameras[1].world_to_camera[1] == 1 && list.cameras[1].world_to_camera[4] == -1);
-    ewa_camera_list_free(&list);
 }
 
 TEST_ON(test_tum, 1) {
-    ewa_camera_list list;
+    OWNED(ewa_camera_list_free) ewa_camera_list list;
     assert_int_equal(read_text(context, TUM, &list), EWA_OK);
     assert_int_equal(list.count, 2);
     expect_eye(&list.cameras[0], 1, 2, 3);
     expect_eye(&list.cameras[1], 4, 5, 6);
     assert_true(fabs(list.cameras[1].world_to_camera[1] - 1) < 1e-12); // a quarter turn about z, x to y
-    ewa_camera_list_free(&list);
 }
 
 TEST(test_broken) {
@@ -72,31 +70,26 @@ TEST(test_broken) {
         {"1 0 0 0\n0 9 0 0\n0 0 1 0\n0 0 0 1\n", "pose 0"},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
-        ewa_camera_list list;
+        OWNED(ewa_camera_list_free) ewa_camera_list list;
         assert_int_equal(read_text(context, broken[i].text, &list), EWA_ERROR_FORMAT);
         if (!strstr(log.text, broken[i].said)) fail_msg("'%s' does not say '%s'", log.text, broken[i].said);
-        ewa_camera_list_free(&list);
     }
     // Every beginning of a valid file is read or refused.
     for (size_t length = 0; length < strlen(MATRICES); length++) {
-        ewa_camera_list list = {.context = context, .name = "poses"};
+        OWNED(ewa_camera_list_free) ewa_camera_list list = {.context = context, .name = "poses"};
         const ewa_camera camera = lens();
-        uint8_t *cut = malloc(length + 1);
+        OWNED(check_free) uint8_t *cut = malloc(length + 1);
         memcpy(cut, MATRICES, length);
         ewa_camera_list_read_poses(&list, &camera, cut, length);
-        free(cut);
-        ewa_camera_list_free(&list);
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_status work(ewa_context *context, void *user) {
     (void)user;
-    ewa_camera_list list;
+    OWNED(ewa_camera_list_free) ewa_camera_list list;
     const ewa_status status = read_text(context, MATRICES, &list);
-    ewa_camera_list_free(&list);
     return status;
 }
 
@@ -129,7 +122,7 @@ TEST_ON(test_files, 1) {
 TEST(test_depths) {
     char path[512];
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_image depth, image;
     if (check_data("rgbd/livingroom/depth/00000.png", path, sizeof path)) {
         assert_int_equal(ewa_depth_load(context, path, &depth), EWA_OK);
@@ -164,7 +157,6 @@ TEST(test_depths) {
     ewa_image_free(&image);
     assert_int_equal(ewa_depth_load_memory(context, "P5 1 1 255\n1", 12, "raw", &depth),
                      EWA_ERROR_UNSUPPORTED);
-    ewa_context_destroy(&context);
 }
 
 /// Every beginning of a file is refused.
@@ -173,15 +165,13 @@ TEST_ON(test_cut_short, 1) {
     if (!check_data("rgbd/sensor_sequence/frame-000065.depth.png", path, sizeof path)) skip();
     ewa_image depth;
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     for (size_t length = 0; length < size_bytes; length += length < 200 ? 1 : 997) {
-        uint8_t *cut = malloc(length + 1);
+        OWNED(check_free) uint8_t *cut = malloc(length + 1);
         memcpy(cut, bytes, length);
         assert_int_not_equal(ewa_depth_load_memory(context, cut, length, "cut", &depth), EWA_OK);
         assert_null(depth.pixels);
-        free(cut);
     }
-    free(bytes);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -32,12 +32,10 @@ static ewa_octree *open_made(void) {
 
 /// Writes `count` points as a tree of that many levels.
 static void write_made(uint64_t count, int32_t level_count, bool wide_colors, uint64_t levels_bytes) {
-    ewa_cloud *cloud = copc_cloud(context, count, wide_colors);
-    copc_nodes nodes = copc_share(cloud, level_count);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, count, wide_colors);
+    OWNED(copc_nodes_free) copc_nodes nodes = copc_share(cloud, level_count);
     const ewa_octree_plan plan = copc_plan(cloud);
     if (copc_write(context, path, &plan, &nodes, levels_bytes) != EWA_OK) fail_msg("%s", messages.text);
-    copc_nodes_free(&nodes);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Numbers that come back: places as decimals, normals and radii times their scales, all else as it was.
@@ -64,8 +62,8 @@ static void expect_point(const ewa_cloud *before, const ewa_cloud *after) {
 
 TEST_WITHIN(gives_back_what_was_written, begin, end) {
     for (int wide = 0; wide < 2; wide++) {
-        ewa_cloud *cloud = copc_cloud(context, 5000, wide);
-        copc_nodes nodes = copc_share(cloud, 4);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, 5000, wide);
+        OWNED(copc_nodes_free) copc_nodes nodes = copc_share(cloud, 4);
         const ewa_octree_plan plan = copc_plan(cloud);
         assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_OK);
         ewa_octree *octree = open_made();
@@ -86,19 +84,16 @@ TEST_WITHIN(gives_back_what_was_written, begin, end) {
             assert_true(ewa_octree_key_compare(&facts->nodes[i - 1].key, &facts->nodes[i].key) < 0);
         for (uint32_t i = 0; i < nodes.count; i++) {
             const uint32_t index = ewa_octree_find(octree, &nodes.keys[i]);
-            ewa_cloud *read = NULL;
+            OWNED(ewa_cloud_destroy) ewa_cloud *read = NULL;
             assert_true(index != UINT32_MAX);
             assert_int_equal(ewa_octree_read(octree, &index, 1, NULL, &read), EWA_OK);
             assert_int_equal(ewa_cloud_point_count(read), ewa_cloud_point_count(nodes.pieces[i]));
             assert_int_equal(ewa_cloud_find(read, EWA_COLOR)->type, wide ? EWA_U16 : EWA_U8);
             expect_point(nodes.pieces[i], read);
-            ewa_cloud_destroy(&read);
         }
         assert_int_equal(ewa_octree_find(octree, &(ewa_octree_key){9, {1, 2, 3}}), UINT32_MAX);
         ewa_octree_close(&octree);
         assert_null(octree);
-        copc_nodes_free(&nodes);
-        ewa_cloud_destroy(&cloud);
     }
     assert_int_equal(messages.count, 0);
 }
@@ -106,12 +101,10 @@ TEST_WITHIN(gives_back_what_was_written, begin, end) {
 TEST_WITHIN(has_the_points_of_the_whole_file, begin, end) {
     for (int wide = 0; wide < 2; wide++) {
         write_made(20000, 5, wide, 77);
-        ewa_cloud *whole = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *whole = NULL;
         assert_int_equal(ewa_cloud_load(context, path, &whole), EWA_OK);
-        ewa_octree *octree = open_made();
+        OWNED(ewa_octree_close) ewa_octree *octree = open_made();
         copc_expect(octree, whole);
-        ewa_octree_close(&octree);
-        ewa_cloud_destroy(&whole);
     }
     assert_int_equal(messages.count, 0);
 }
@@ -135,7 +128,8 @@ TEST_WITHIN(reads_what_no_header_counts, begin, end) {
 
 TEST_WITHIN(counts_colors_that_others_do_not_lead_to_expect, begin, end) {
     enum { NODES = 40, ODD = 7 }; // not among the eight chunks that are looked at
-    ewa_cloud *cloud = copc_cloud(context, 2 * NODES, true);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, 2 * NODES, true);
+    OWNED(copc_nodes_free)
     copc_nodes nodes = {calloc(NODES, sizeof *nodes.keys), calloc(NODES, sizeof(ewa_cloud *)), NODES};
     for (uint32_t i = 0; i < NODES; i++) {
         const uint64_t indices[2] = {2 * i, 2 * i + 1};
@@ -146,7 +140,7 @@ TEST_WITHIN(counts_colors_that_others_do_not_lead_to_expect, begin, end) {
     }
     const ewa_octree_plan plan = copc_plan(cloud);
     assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_OK);
-    ewa_cloud *whole = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *whole = NULL;
     assert_int_equal(ewa_cloud_load(context, path, &whole), EWA_OK);
     assert_int_equal(ewa_cloud_find(whole, EWA_COLOR)->type, EWA_U8);
     messages = (check_log){0};
@@ -155,17 +149,13 @@ TEST_WITHIN(counts_colors_that_others_do_not_lead_to_expect, begin, end) {
     assert_int_equal(messages.count, 0);
     ewa_octree_close(&octree);
     assert_non_null(strstr(messages.text, ": 2 numbers of colours are above 255"));
-    ewa_cloud_destroy(&whole);
-    copc_nodes_free(&nodes);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(notes_the_times_of_the_points, begin, end) {
     size_t size_bytes;
     write_made(101, 2, false, 0);
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     assert_true(las_get_f64(bytes + 375 + 54 + 56) == 1000 && las_get_f64(bytes + 375 + 54 + 64) == 1025);
-    free(bytes);
 }
 
 TEST_WITHIN(reads_files_of_others, begin, end) {
@@ -175,21 +165,19 @@ TEST_WITHIN(reads_files_of_others, begin, end) {
         char relative[128], real[512];
         snprintf(relative, sizeof relative, "clouds/laz/%s", files[i]);
         if (!check_data(relative, real, sizeof real)) continue;
-        ewa_cloud *whole = NULL;
-        ewa_octree *octree = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *whole = NULL;
+        OWNED(ewa_octree_close) ewa_octree *octree = NULL;
         assert_true(ewa_octree_is(context, real));
         assert_int_equal(ewa_cloud_load(context, real, &whole), EWA_OK);
         assert_int_equal(ewa_octree_open(context, real, &octree), EWA_OK);
         copc_expect(octree, whole);
-        ewa_octree_close(&octree);
-        ewa_cloud_destroy(&whole);
     }
     assert_int_equal(messages.count, 0);
 }
 
 TEST_WITHIN(reads_the_attributes_that_are_wanted, begin, end) {
     write_made(100, 1, false, 0);
-    ewa_octree *octree = open_made();
+    OWNED(ewa_octree_close) ewa_octree *octree = open_made();
     const uint32_t index = 0;
     ewa_cloud *read = NULL;
     assert_int_equal(ewa_octree_read(octree, &index, 1, "normal,gps_time,none", &read), EWA_OK);
@@ -200,12 +188,11 @@ TEST_WITHIN(reads_the_attributes_that_are_wanted, begin, end) {
     const uint32_t beyond = 1;
     assert_int_equal(ewa_octree_read(octree, &beyond, 1, NULL, &read), EWA_ERROR_ARGUMENT);
     assert_null(read);
-    ewa_octree_close(&octree);
 }
 
 TEST_WITHIN(is_the_same_for_any_number_of_threads, begin, end) {
     size_t size_bytes = 0, other_bytes;
-    uint8_t *bytes = NULL;
+    OWNED(check_free) uint8_t *bytes = NULL;
     ewa_context *kept = context;
     for (uint32_t threads = 1; threads <= 3; threads++) {
         context = check_context(threads, &messages);
@@ -222,19 +209,17 @@ TEST_WITHIN(is_the_same_for_any_number_of_threads, begin, end) {
         ewa_context_destroy(&context);
     }
     context = kept;
-    free(bytes);
 }
 
 TEST_WITHIN(keeps_levels_of_any_size, begin, end) {
     for (uint64_t size = 1; size < 70000; size = size * 5 + 2) {
         write_made(50, 2, false, size);
-        ewa_octree *octree = open_made();
+        OWNED(ewa_octree_close) ewa_octree *octree = open_made();
         const ewa_octree_facts *facts = ewa_octree_describe(octree);
         assert_int_equal(facts->levels_bytes, size);
         for (uint64_t i = 0; i < size; i++) assert_int_equal(facts->levels[i], (uint8_t)(i * 31));
         // What is made from the cloud has no part in the levels.
         assert_null(ewa_cloud_note(facts->prototype, "las.vlrs", NULL));
-        ewa_octree_close(&octree);
     }
 }
 
@@ -259,11 +244,11 @@ static copc_nodes make_many(const ewa_cloud *cloud, uint32_t count) {
 
 TEST_WITHIN(writes_many_nodes_in_pages, begin, end) {
     enum { COUNT = 5461, PAGE_ENTRIES = 1000, ENTRY_BYTES = 32 };
-    ewa_cloud *cloud = copc_cloud(context, 1, false);
-    copc_nodes nodes = make_many(cloud, COUNT);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, 1, false);
+    OWNED(copc_nodes_free) copc_nodes nodes = make_many(cloud, COUNT);
     const ewa_octree_plan plan = copc_plan(cloud);
     assert_int_equal(copc_write(context, path, &plan, &nodes, 3), EWA_OK);
-    ewa_octree *octree = open_made();
+    OWNED(ewa_octree_close) ewa_octree *octree = open_made();
     const ewa_octree_facts *facts = ewa_octree_describe(octree);
     assert_int_equal(facts->node_count, COUNT);
     for (uint32_t i = 0; i < COUNT; i++) assert_true(ewa_octree_find(octree, &nodes.keys[i]) != UINT32_MAX);
@@ -273,7 +258,7 @@ TEST_WITHIN(writes_many_nodes_in_pages, begin, end) {
     copc_free_all(clouds, COUNT);
     // From page to page as readers go that look for one cube: every entry's parent is in its page, but the root's.
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     size_t page_at[COUNT], page_bytes[COUNT], pages = 1, entries = 0, empty = 0;
     page_at[0] = las_get(bytes + 375 + 54 + 40, 8);
     page_bytes[0] = las_get(bytes + 375 + 54 + 48, 8);
@@ -302,26 +287,20 @@ TEST_WITHIN(writes_many_nodes_in_pages, begin, end) {
     assert_true(pages > 3);
     assert_true(empty > 0);
     assert_int_equal(entries, COUNT + empty);
-    free(bytes);
-    ewa_octree_close(&octree);
-    copc_nodes_free(&nodes);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(writes_trees_without_nodes, begin, end) {
-    ewa_cloud *cloud = copc_cloud(context, 0, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, 0, false);
     const ewa_octree_plan plan = copc_plan(cloud);
     const ewa_octree_key key = {0, {0, 0, 0}};
     ewa_cloud *const pieces[1] = {cloud};
     const copc_nodes nodes[2] = {{0}, {(ewa_octree_key *)&key, (ewa_cloud **)pieces, 1}};
     for (int i = 0; i < 2; i++) {
         assert_int_equal(copc_write(context, path, &plan, &nodes[i], 0), EWA_OK);
-        ewa_octree *octree = open_made();
+        OWNED(ewa_octree_close) ewa_octree *octree = open_made();
         assert_int_equal(ewa_octree_describe(octree)->node_count, 0);
         assert_int_equal(ewa_octree_describe(octree)->point_count, 0);
-        ewa_octree_close(&octree);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Writes a tree of a cloud with that note about its system, and holds header and records to what LAS 1.4 says of point
@@ -335,7 +314,7 @@ static void expect_system(const char *crs, const char *wkt_begin, const char *wk
     copc_nodes_free(&nodes);
     ewa_cloud_destroy(&cloud);
     size_t size;
-    uint8_t *bytes = scratch_read(path, &size);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size);
     assert_true(bytes[24] == 1 && bytes[25] == 4);
     assert_int_equal(las_get(bytes + 94, 2), 375);
     assert_true(las_get(bytes + 6, 2) & 16);
@@ -362,7 +341,6 @@ static void expect_system(const char *crs, const char *wkt_begin, const char *wk
         assert_true(wkt_bytes > end_bytes && wkt[wkt_bytes - 1] == 0);
         assert_string_equal(wkt + wkt_bytes - 1 - end_bytes, wkt_end);
     }
-    free(bytes);
 }
 
 TEST_WITHIN(has_its_system_as_text, begin, end) {
@@ -388,7 +366,7 @@ TEST_WITHIN(makes_text_of_keys, begin, end) {
     uint8_t vlr[200];
     const size_t vlr_bytes = las_vlr(vlr, "LASF_Projection", 34735, keys, sizeof keys);
     las_sample sample = las_make(0, 2, 0, 50, vlr, vlr_bytes, 1);
-    ewa_cloud *cloud = las_load(context, &sample), *back = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &sample), *back = NULL;
     assert_string_equal(ewa_cloud_note(cloud, "crs", NULL), "EPSG:26903");
     const ewa_octree_plan plan = {cloud, .bounds = {{0, 0, 0}, {1, 1, 1}}, {0, 0, 0}, 1, 1};
     const copc_nodes none = {0};
@@ -396,13 +374,11 @@ TEST_WITHIN(makes_text_of_keys, begin, end) {
     assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
     assert_string_equal(ewa_cloud_note(back, "crs_name", NULL), "NAD83 / UTM zone 3N");
     assert_memory_equal(ewa_cloud_note(back, "crs", NULL), "PROJCS[", 7);
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
     free(sample.bytes);
 }
 
 TEST_WITHIN(refuses_what_it_cannot_write, begin, end) {
-    ewa_cloud *cloud = copc_cloud(context, 10, false), *other = copc_cloud(context, 10, true);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, 10, false), *other = copc_cloud(context, 10, true);
     ewa_octree_plan plan = copc_plan(cloud);
     ewa_octree_key keys[2] = {{1, {0, 1, 0}}, {1, {0, 1, 0}}};
     ewa_cloud *pieces[2] = {cloud, cloud};
@@ -438,8 +414,6 @@ TEST_WITHIN(refuses_what_it_cannot_write, begin, end) {
     assert_int_equal(ewa_octree_writer_commit(&writer), EWA_ERROR_ARGUMENT);
     assert_null(writer);
     assert_int_not_equal(access(path, F_OK), 0);
-    ewa_cloud_destroy(&cloud);
-    ewa_cloud_destroy(&other);
 }
 
 /// Opens the bytes as a file and reads all nodes; the first failure.
@@ -454,28 +428,26 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
 TEST_WITHIN(refuses_every_beginning, begin, end) {
     size_t size_bytes;
     write_made(12, 2, false, 0);
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     for (size_t size = 0; size < size_bytes; size++)
         if (try_bytes(bytes, size) == EWA_OK) fail_msg("%zu bytes of %zu are taken", size, size_bytes);
     assert_int_equal(try_bytes(bytes, size_bytes), EWA_OK);
     check_random random = {5};
     for (int i = 0; i < 600; i++) {
-        uint8_t *changed = malloc(size_bytes);
+        OWNED(check_free) uint8_t *changed = malloc(size_bytes);
         memcpy(changed, bytes, size_bytes);
         for (int k = 0; k < 2; k++)
             changed[check_random_u64(&random) % size_bytes] = (uint8_t)check_random_u64(&random);
         const ewa_status status = try_bytes(changed, size_bytes);
         assert_true(status == EWA_OK || messages.count > 0);
-        free(changed);
     }
-    free(bytes);
 }
 
 TEST_WITHIN(refuses_hierarchies_that_lie, begin, end) {
     enum { ENTRY_BYTES = 32 };
     size_t size_bytes;
     write_made(400, 2, false, 0);
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     const size_t root_at = las_get(bytes + 375 + 54 + 40, 8);
     const struct {
         const char *what;
@@ -501,7 +473,7 @@ TEST_WITHIN(refuses_hierarchies_that_lie, begin, end) {
         {"no side", 375 + 54 + 24, 0, 8, "half a side of 0"},
     };
     for (size_t i = 0; i < sizeof lies / sizeof lies[0]; i++) {
-        uint8_t *changed = malloc(size_bytes);
+        OWNED(check_free) uint8_t *changed = malloc(size_bytes);
         memcpy(changed, bytes, size_bytes);
         las_put(changed + lies[i].at, lies[i].value, lies[i].count);
         if (strcmp(lies[i].what, "a page in itself") == 0) {
@@ -510,9 +482,7 @@ TEST_WITHIN(refuses_hierarchies_that_lie, begin, end) {
         }
         if (try_bytes(changed, size_bytes) != EWA_ERROR_FORMAT || !strstr(messages.text, lies[i].said))
             fail_msg("%s: '%s'", lies[i].what, messages.text);
-        free(changed);
     }
-    free(bytes);
 }
 
 TEST_WITHIN(is_no_other_file, begin, end) {
@@ -536,11 +506,9 @@ static ewa_status write_and_read(ewa_context *failing, void *user) {
 }
 
 TEST_WITHIN(survives_memory_that_fails, begin, end) {
-    ewa_cloud *cloud = copc_cloud(context, 40, false);
-    copc_nodes nodes = copc_share(cloud, 2);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = copc_cloud(context, 40, false);
+    OWNED(copc_nodes_free) copc_nodes nodes = copc_share(cloud, 2);
     scratch_fail_each(write_and_read, &nodes);
-    copc_nodes_free(&nodes);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -297,7 +297,7 @@ CASE(test_poses_of_one_axis) {
             snprintf(text, sizeof text, "<pose><translation><%c type=\"Float\">2</%c></translation></pose>", axis, axis);
         scan.more = text;
         cloud_bytes file = make(&scan, 1, "");
-        ewa_cloud *cloud = load(&file);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file);
         assert_int_equal(ewa_cloud_point_count(cloud), POINTS);
         ewa_cloud_origin(cloud, origin);
         for (uint32_t r = 0; r < POINTS; r++) {
@@ -311,14 +311,13 @@ CASE(test_poses_of_one_axis) {
                 assert_true(fabs(at[c] + origin[c] - moved) < 1e-9);
             }
         }
-        ewa_cloud_destroy(&cloud);
         free(file.bytes);
     }
 }
 
 CASE(test_spherical) {
     cloud_bytes file = make(&spherical_scan, 1, "");
-    ewa_cloud *cloud = load(&file);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_point_count(cloud), 700);
     for (uint32_t r = 0; r < 700; r++) {
         const double range = 1 + r, azimuth = 0.1 * r, elevation = -0.01 * r;
@@ -333,13 +332,12 @@ CASE(test_spherical) {
         cloud_expect(cloud, "row_index", EWA_U16, 1, r, (const double[]){r * 37 % 1024});
     }
     assert_string_equal(ewa_cloud_note(cloud, "scanners", NULL), "0 0 0");
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
 CASE(test_scaled_integers_of_any_width) {
     cloud_bytes file = make(&scaled_scan, 1, "");
-    ewa_cloud *cloud = load(&file);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file);
     double origin[3];
     ewa_coordinate_grid grid;
     ewa_cloud_origin(cloud, origin);
@@ -359,14 +357,13 @@ CASE(test_scaled_integers_of_any_width) {
     }
     assert_string_equal(ewa_cloud_note(cloud, "file.intensity", NULL), "0 to 511.5");
     cloud_check_pieces(&file, "scaled.e57", cloud);
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
 CASE(test_several_scans_are_one_cloud) {
     const made_scan scans[3] = {posed_scan, spherical_scan, {float_fields, 3, 0, POSE}};
     cloud_bytes file = make(scans, 3, "");
-    ewa_cloud *cloud = load(&file);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file);
     const uint32_t first_count = count_points(1200);
     double origin[3];
     ewa_cloud_origin(cloud, origin);
@@ -392,7 +389,6 @@ CASE(test_several_scans_are_one_cloud) {
     assert_non_null(strstr(messages.text, "gps_time (nan)"));
     assert_non_null(strstr(messages.text, "row_index (0)"));
     cloud_check_pieces(&file, "scans.e57", cloud);
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
@@ -416,14 +412,13 @@ CASE(test_every_page_is_checked) {
     const made_scan scan = {float_fields, 8, 300, ""};
     cloud_bytes file = make(&scan, 1, "");
     for (int mask = 0; mask < 2; mask++) {
-        ewa_context *masked = check_context_of(1, masks[mask]);
+        OWNED(ewa_context_destroy) ewa_context *masked = check_context_of(1, masks[mask]);
         for (size_t at = 3; at < file.size; at += 97) {
             ewa_cloud *cloud = NULL;
             file.bytes[at] ^= 0x10;
             assert_true(ewa_cloud_load_memory(masked, file.bytes, file.size, "sample.e57", &cloud) < 0);
             file.bytes[at] ^= 0x10;
         }
-        ewa_context_destroy(&masked);
     }
     file.bytes[PAGE + 5] ^= 1;
     ewa_cloud *cloud = NULL;
@@ -441,7 +436,7 @@ CASE(test_damaged_pages_are_stepped_over) {
     // Within the first packet: 500 records are lost, the others are what they were.
     file.bytes[5 * PAGE + 100] ^= 1;
     uint64_t lost_count;
-    ewa_cloud *cloud = cloud_keep_going(context, &file, "keep.e57", &lost_count);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = cloud_keep_going(context, &file, "keep.e57", &lost_count);
     assert_non_null(cloud);
     assert_in_range(lost_count, 490, 520);
     assert_int_equal(ewa_cloud_point_count(cloud) + lost_count, 2000);
@@ -476,7 +471,6 @@ CASE(test_damaged_pages_are_stepped_over) {
     assert_int_equal(lost_count, 3000);
     assert_int_equal(ewa_cloud_point_count(cloud), 700);
     cloud_expect(cloud, "scan", EWA_U16, 1, 0, (const double[]){1});
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
@@ -513,13 +507,12 @@ CASE(test_files_that_are_wrong) {
     const made_scan scan = {float_fields, 8, 300, ""};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         cloud_bytes file = make(&scan, 1, "");
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         messages = (check_log){0};
         change(&file, cases[i].from, cases[i].to);
         const ewa_status status = ewa_cloud_load_memory(context, file.bytes, file.size, "sample.e57", &cloud);
         if ((status == EWA_OK) != !cases[i].message[0] || !strstr(messages.text, cases[i].message))
             fail_msg("case %zu: '%s' instead of '%s'", i, messages.text, cases[i].message);
-        ewa_cloud_destroy(&cloud);
         free(file.bytes);
     }
     const made_scan none = {float_fields, 8, 0, ""};
@@ -549,12 +542,11 @@ CASE(test_damaged_bytes_are_survived) {
         for (int k = 0; k < 3; k++)
             changed.bytes[check_random_u64(&random) % file.size] = (uint8_t)check_random_u64(&random);
         for (size_t page = 0; page + PAGE <= file.size; page += PAGE) fit_checksum(changed.bytes + page);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         messages = (check_log){0};
         const ewa_status status =
             ewa_cloud_load_memory(context, changed.bytes, changed.size, "sample.e57", &cloud);
         assert_true(status == EWA_OK || messages.count > 0);
-        ewa_cloud_destroy(&cloud);
         free(changed.bytes);
     }
     free(file.bytes);
@@ -562,9 +554,8 @@ CASE(test_damaged_bytes_are_survived) {
 
 static ewa_status load_each(ewa_context *failing, void *user) {
     const cloud_bytes *file = user;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     const ewa_status status = ewa_cloud_load_memory(failing, file->bytes, file->size, "sample.e57", &cloud);
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 

@@ -100,7 +100,7 @@ static void write_node(int encoding, uint32_t index) {
         assert_int_equal(ewa_cloud_save(piece, path, &options), EWA_OK);
         return;
     }
-    uint8_t *records = make_records(piece);
+    OWNED(check_free) uint8_t *records = make_records(piece);
     size_t size_bytes = ewa_cloud_point_count(piece) * RECORD_BYTES;
     if (encoding == ZSTANDARD) {
         const size_t bound = ZSTD_compressBound(size_bytes);
@@ -110,7 +110,6 @@ static void write_node(int encoding, uint32_t index) {
         records = packed;
     }
     scratch_write(path, records, size_bytes);
-    free(records);
 }
 
 /// The description; `schema` NULL: that of the dimensions.
@@ -310,13 +309,11 @@ TEST_WITHIN(reads_positions_of_any_type, begin, end) {
         write_description("binary", schema);
         write_text("ept-hierarchy/0-0-0-0.json", "{\"0-0-0-0\": 1}");
         scratch_write(within("ept-data/0-0-0-0.bin", path), record, 3 * (size_t)types[i].size_bytes);
-        ewa_octree *octree = open_folder(folder);
-        ewa_cloud *read = NULL;
+        OWNED(ewa_octree_close) ewa_octree *octree = open_folder(folder);
+        OWNED(ewa_cloud_destroy) ewa_cloud *read = NULL;
         const uint32_t index = 0;
         assert_int_equal(ewa_octree_read(octree, &index, 1, NULL, &read), EWA_OK);
         for (uint32_t c = 0; c < 3; c++) assert_true(las_world(read, 0, c) == types[i].world);
-        ewa_cloud_destroy(&read);
-        ewa_octree_close(&octree);
     }
 }
 
@@ -325,23 +322,20 @@ TEST_WITHIN(takes_narrow_colors_for_all, begin, end) {
     // One byte twice in all nodes, of which each would be looked at alone.
     for (uint32_t i = 0; i < nodes.count; i++) {
         char path[600];
-        uint8_t *records = make_records(nodes.pieces[i]);
+        OWNED(check_free) uint8_t *records = make_records(nodes.pieces[i]);
         for (uint64_t p = 0; p < ewa_cloud_point_count(nodes.pieces[i]); p++)
             for (int c = 0; c < 3; c++)
                 records[p * RECORD_BYTES + 25 + 2 * c] = records[p * RECORD_BYTES + 26 + 2 * c];
         key_path("ept-data", &nodes.keys[i], "bin", path);
         scratch_write(path, records, ewa_cloud_point_count(nodes.pieces[i]) * RECORD_BYTES);
-        free(records);
     }
-    ewa_octree *octree = open_folder(folder);
+    OWNED(ewa_octree_close) ewa_octree *octree = open_folder(folder);
     const uint32_t index = ewa_octree_find(octree, &nodes.keys[0]);
-    ewa_cloud *read = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *read = NULL;
     assert_int_equal(ewa_octree_read(octree, &index, 1, "color", &read), EWA_OK);
     assert_int_equal(ewa_cloud_attribute_count(read), 2);
     assert_int_equal(ewa_cloud_find(read, EWA_COLOR)->type, EWA_U8);
     assert_true(las_value(read, EWA_COLOR, 0, 1) == floor(las_value(nodes.pieces[0], EWA_COLOR, 0, 1) / 256));
-    ewa_cloud_destroy(&read);
-    ewa_octree_close(&octree);
 }
 
 TEST_WITHIN(says_which_node_is_missing_or_miscounted, begin, end) {
@@ -492,7 +486,7 @@ TEST_WITHIN(survives_changed_bytes, begin, end) {
         static const char *const names[] = {"ept.json", "ept-hierarchy/0-0-0-0.json", "ept-data/0-0-0-0.zst"};
         size_t size_bytes;
         within(names[i % 3], path);
-        uint8_t *bytes = scratch_read(path, &size_bytes);
+        OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
         const size_t at = check_random_u64(&random) % size_bytes;
         const uint8_t was = bytes[at];
         bytes[at] = (uint8_t)check_random_u64(&random);
@@ -501,7 +495,6 @@ TEST_WITHIN(survives_changed_bytes, begin, end) {
         assert_true(status == EWA_OK || messages.count > 0);
         bytes[at] = was;
         scratch_write(path, bytes, size_bytes);
-        free(bytes);
     }
 }
 

@@ -45,19 +45,17 @@ TEST(test_orientations) {
         for (uint32_t orientation = 0; orientation <= 9; orientation++) {
             size_t size_bytes;
             make_segment(segment, big, orientation);
-            uint8_t *bytes = make_picture(segment, sizeof segment, &size_bytes);
+            OWNED(check_free) uint8_t *bytes = make_picture(segment, sizeof segment, &size_bytes);
             const uint32_t wanted = orientation >= 1 && orientation <= 8 ? orientation : 1;
             assert_int_equal(ewa_exif_orientation(bytes, size_bytes), wanted);
             // Every truncation, exactly as many bytes as there are, so that a sanitizer sees one too many.
             for (size_t cut = 0; cut < 2 + sizeof segment + 40; cut++) {
-                uint8_t *part = malloc(cut + 1);
+                OWNED(check_free) uint8_t *part = malloc(cut + 1);
                 memcpy(part + 1, bytes, cut);
                 const uint32_t found = ewa_exif_orientation(part + 1, cut);
                 assert_true(found == 1 || found == wanted);
                 if (cut < 2 + HEAD_BYTES + 20) assert_int_equal(found, 1);
-                free(part);
             }
-            free(bytes);
         }
 }
 
@@ -75,9 +73,8 @@ TEST(test_broken) {
         size_t size_bytes;
         make_segment(segment, false, 6);
         segment[edits[i].at] = edits[i].value;
-        uint8_t *bytes = make_picture(segment, sizeof segment, &size_bytes);
+        OWNED(check_free) uint8_t *bytes = make_picture(segment, sizeof segment, &size_bytes);
         assert_int_equal(ewa_exif_orientation(bytes, size_bytes), 1);
-        free(bytes);
     }
 }
 
@@ -99,12 +96,11 @@ static void write_quarters(ewa_context *context, const char *path, const uint8_t
     assert_int_equal(ewa_image_save(&image, path, NULL), EWA_OK);
     ewa_image_free(&image);
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes), *made = malloc(size_bytes + segment_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes), *made = malloc(size_bytes + segment_bytes);
     assert_non_null(made);
     memcpy(made, bytes, 2), memcpy(made + 2, segment, segment_bytes);
     memcpy(made + 2 + segment_bytes, bytes + 2, size_bytes - 2);
     scratch_write(path, made, size_bytes + segment_bytes);
-    free(bytes), free(made);
 }
 
 /// Where the red quarter is: 1: on the right, 2: below.
@@ -122,25 +118,23 @@ static int quarter_of(const ewa_image *image) {
 TEST(test_turned) {
     (void)state;
     static const int wanted[9] = {[5] = 0, [6] = 1, [7] = 3, [8] = 2};
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("turned.jpg", path);
     for (uint32_t orientation = 1; orientation <= 8; orientation++) {
         uint8_t segment[HEAD_BYTES + TIFF_BYTES];
         make_segment(segment, true, orientation);
         write_quarters(context, path, segment, sizeof segment);
-        ewa_image image;
+        OWNED(ewa_image_free) ewa_image image;
         assert_int_equal(ewa_image_load_sized(context, path, 16, 8, &image), EWA_OK); // as it is stored
         assert_true(image.width_px == 16 && quarter_of(&image) == 0);
         ewa_image_free(&image);
         assert_int_equal(ewa_image_load_sized(context, path, 8, 16, &image), EWA_OK);
         assert_int_equal(image.width_px, orientation < 5 ? 16 : 8); // 16: that it does not fit is the caller's to say
         assert_int_equal(quarter_of(&image), wanted[orientation]);
-        ewa_image_free(&image);
     }
     ewa_image image;
     assert_int_equal(ewa_image_load_sized(context, "nowhere.jpg", 8, 16, &image), EWA_ERROR_IO);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

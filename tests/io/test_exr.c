@@ -31,10 +31,10 @@ TEST(test_round_trip_is_exact) {
     char path[512];
     scratch_path("saved.exr", path);
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
-        ewa_context *context = check_context(threads, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
         for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
             for (uint32_t channels = 1; channels <= 8; channels++) {
-                ewa_image image = make_image(context, sizes[s][0], sizes[s][1], channels), back;
+                OWNED(ewa_image_free) ewa_image image = make_image(context, sizes[s][0], sizes[s][1], channels), back;
                 if (channels == 3) {
                     image.pixels[0] = NAN;
                     image.pixels[1] = -INFINITY;
@@ -46,18 +46,15 @@ TEST(test_round_trip_is_exact) {
                 assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
                 assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
                 assert_same(&image, &back);
-                ewa_image_free(&image);
-                ewa_image_free(&back);
             }
         }
-        ewa_context_destroy(&context);
     }
 }
 
 TEST_ON(test_channels_go_by_name, 1) {
     char path[512];
     scratch_path("named.exr", path);
-    ewa_image image, back;
+    OWNED(ewa_image_free) ewa_image image, back;
     assert_int_equal(ewa_image_create(context, 1, 1, 6, &image), EWA_OK);
     for (int i = 0; i < 6; i++) image.pixels[i] = (float)i;
     WITH_DEFAULTS(ewa_image_save_options, options);
@@ -73,14 +70,12 @@ TEST_ON(test_channels_go_by_name, 1) {
     const float expected[6] = {4, 1, 3, 2, 5, 0}; // A B G N.X Q Z
     assert_int_equal(back.channel_count, 6);
     assert_memory_equal(back.pixels, expected, sizeof expected);
-    ewa_image_free(&back);
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_half, 1) {
     char path[512];
     scratch_path("half.exr", path);
-    ewa_image image, back;
+    OWNED(ewa_image_free) ewa_image image, back;
     assert_int_equal(ewa_image_create(context, 3, 1, 1, &image), EWA_OK);
     image.pixels[0] = 1.0f + 0x1p-10f; // exact in half
     image.pixels[1] = 1.0f + 0x1p-12f; // rounds to 1
@@ -90,8 +85,6 @@ TEST_ON(test_half, 1) {
     assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
     assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
     assert_true(back.pixels[0] == 1.0f + 0x1p-10f && back.pixels[1] == 1 && isinf(back.pixels[2]));
-    ewa_image_free(&image);
-    ewa_image_free(&back);
 }
 
 TEST_ON(test_camera_attribute, 1) {
@@ -101,7 +94,7 @@ TEST_ON(test_camera_attribute, 1) {
     ewa_camera_init(&camera);
     const double eye[3] = {1, 2, 3}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     ewa_camera_look_at(&camera, eye, target, up);
-    ewa_image image = make_image(context, 4, 4, 3);
+    OWNED(ewa_image_free) ewa_image image = make_image(context, 4, 4, 3);
     WITH_DEFAULTS(ewa_image_save_options, options);
     options.world_to_camera = camera.world_to_camera;
     assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
@@ -117,12 +110,9 @@ TEST_ON(test_camera_attribute, 1) {
     assert_int_equal(exr_get_compression(file, 0, &compression), EXR_ERR_SUCCESS);
     assert_int_equal(compression, EXR_COMPRESSION_ZIP);
     exr_finish(&file);
-    ewa_image_free(&image);
 }
 
-TEST(test_names_are_checked) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_names_are_checked, 1) {
     char path[512];
     scratch_path("misnamed.exr", path);
     remove(path);
@@ -132,7 +122,7 @@ TEST(test_names_are_checked) {
         WITH_DEFAULTS(ewa_image_save_options, options);
         options.channel_names = wrong[i];
         assert_int_equal(ewa_image_save(&image, path, &options), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, "misnamed.exr"));
+        assert_non_null(strstr(log->text, "misnamed.exr"));
     }
     ewa_image_free(&image);
     image = make_image(context, 2, 2, 5);
@@ -142,18 +132,15 @@ TEST(test_names_are_checked) {
     assert_int_equal(ewa_image_save(&image, "/nowhere/x.exr", NULL), EWA_ERROR_IO);
     ewa_image_free(&image);
     assert_int_equal(access(path, F_OK), -1);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_real_files) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_real_files, 1) {
     char path[512];
     ewa_image image;
     if (check_data("images/exr_sample.exr", path, sizeof path)) {
         // Luminance with subsampled chroma.
         assert_int_equal(ewa_image_load(context, path, &image), EWA_ERROR_UNSUPPORTED);
-        assert_non_null(strstr(log.text, "channel BY is subsampled 2 x 2"));
+        assert_non_null(strstr(log->text, "channel BY is subsampled 2 x 2"));
     }
     if (check_data("images/env/KernerEnvCube.exr", path, sizeof path)) { // tiles with levels
         assert_int_equal(ewa_image_load(context, path, &image), EWA_OK);
@@ -169,7 +156,6 @@ TEST(test_real_files) {
             }
         ewa_image_free(&image);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_hostile) {
@@ -181,21 +167,18 @@ TEST(test_hostile) {
     ewa_context_destroy(&t.context);
 }
 
-TEST(test_every_truncation_is_refused) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_truncation_is_refused, 1) {
     char path[512];
     ewa_image image = make_image(context, 5, 20, 3);
     assert_int_equal(ewa_image_save(&image, scratch_path("whole.exr", path), NULL), EWA_OK);
     ewa_image_free(&image);
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     for (size_t length = 0; length < size_bytes; length++) {
-        uint8_t *exact = malloc(length ? length : 1);
+        OWNED(check_free) uint8_t *exact = malloc(length ? length : 1);
         memcpy(exact, bytes, length);
         assert_int_equal(ewa_image_load_memory(context, exact, length, "cut.exr", &image), EWA_ERROR_FORMAT);
-        assert_memory_equal(log.text, "cut.exr: ", 9);
-        free(exact);
+        assert_memory_equal(log->text, "cut.exr: ", 9);
     }
     for (size_t at = 0; at < size_bytes; at++) {
         bytes[at] ^= 0x55;
@@ -203,33 +186,27 @@ TEST(test_every_truncation_is_refused) {
             ewa_image_free(&image);
         bytes[at] ^= 0x55;
     }
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_lost_chunk_table_is_refused) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_lost_chunk_table_is_refused, 1) {
     char path[512];
     ewa_image image = make_image(context, 5, 20, 3);
     assert_int_equal(ewa_image_save(&image, scratch_path("table.exr", path), NULL), EWA_OK);
     ewa_image_free(&image);
     size_t size_bytes, at = 0;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     // 20 lines are two chunks: the table's two offsets of 8 bytes, the first of which points just behind it.
     for (uint64_t offset = 0; offset != at + 16; memcpy(&offset, bytes + at, sizeof offset))
         assert_true(++at + 16 < size_bytes);
     memset(bytes + at, 0, 16);
     assert_int_equal(ewa_image_load_memory(context, bytes, size_bytes, "table.exr", &image),
                      EWA_ERROR_FORMAT);
-    assert_memory_equal(log.text, "table.exr: OpenEXR: ", 20);
-    free(bytes);
-    ewa_context_destroy(&context);
+    assert_memory_equal(log->text, "table.exr: OpenEXR: ", 20);
 }
 
 TEST(test_limits) {
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     char path[512];
     ewa_image image = make_image(context, 100, 100, 3);
     assert_int_equal(ewa_image_save(&image, scratch_path("limit.exr", path), NULL), EWA_OK);
@@ -247,7 +224,6 @@ TEST(test_limits) {
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     assert_int_equal(ewa_image_load(context, path, &image), EWA_ERROR_LIMIT);
     assert_non_null(strstr(log.text, "100 x 100 pixels are over the limit of 99"));
-    ewa_context_destroy(&context);
 }
 
 static ewa_status save_work(ewa_context *context, void *user) {
@@ -257,9 +233,8 @@ static ewa_status save_work(ewa_context *context, void *user) {
 }
 
 static ewa_status load_work(ewa_context *context, void *user) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     const ewa_status status = ewa_image_load(context, user, &image);
-    ewa_image_free(&image);
     return status;
 }
 
@@ -276,8 +251,8 @@ static void bench(void) {
     scratch_path("bench.exr", path);
     for (uint32_t threads = 1; threads <= 2; threads++) {
         for (int half = 0; half < 2; half++) {
-            ewa_context *context = check_context(threads, NULL);
-            ewa_image image;
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
+            OWNED(ewa_image_free) ewa_image image;
             assert_int_equal(ewa_image_create(context, 1280, 1024, 4, &image), EWA_OK);
             for (size_t i = 0; i < 1280 * 1024; i++) {
                 const double dx = ((double)(i % 1280) - 640) / 480, dy = ((double)i / 1280 - 512) / 480;
@@ -292,21 +267,18 @@ static void bench(void) {
             options.exr_half = half;
             double save_s = 1e9, load_s = 1e9;
             for (int round = 0; round < 5; round++) {
-                ewa_image back;
+                OWNED(ewa_image_free) ewa_image back;
                 double start_s = ewa_now_s();
                 assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
                 save_s = fmin(save_s, ewa_now_s() - start_s);
                 start_s = ewa_now_s();
                 assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
                 load_s = fmin(load_s, ewa_now_s() - start_s);
-                ewa_image_free(&back);
             }
             struct stat facts;
             stat(path, &facts);
             printf("%s RGBA, %u threads: write %6.1f ms, read %6.1f ms, %ld bytes\n", half ? "half" : "float",
                    threads, 1e3 * save_s, 1e3 * load_s, (long)facts.st_size);
-            ewa_image_free(&image);
-            ewa_context_destroy(&context);
         }
     }
 }

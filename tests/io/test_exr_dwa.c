@@ -12,7 +12,7 @@
 enum { ATTRIBUTES_AT = 8, HEADER_BYTES = 331 }; // of dwa_lines
 
 static void check_pixels(ewa_context *context, const uint8_t *bytes, size_t size_bytes, uint32_t width_px, uint32_t height_px) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_load_memory(context, bytes, size_bytes, "dwa.exr", &image), EWA_OK);
     assert_int_equal(image.width_px, width_px);
     assert_int_equal(image.height_px, height_px);
@@ -27,7 +27,6 @@ static void check_pixels(ewa_context *context, const uint8_t *bytes, size_t size
         }
     print_message("colours are up to %.2g off\n", largest);
     assert_true(largest < 0.01); // DWA drops what is not seen
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_known_pixels, 1) {
@@ -37,11 +36,10 @@ TEST_ON(test_known_pixels, 1) {
 
 /// A copy without a byte beyond its end that may be read.
 static void load_exactly(ewa_context *context, const uint8_t *bytes, size_t size_bytes, ewa_status expected) {
-    uint8_t *exact = malloc(size_bytes ? size_bytes : 1);
+    OWNED(check_free) uint8_t *exact = malloc(size_bytes ? size_bytes : 1);
     memcpy(exact, bytes, size_bytes);
     ewa_image image;
     assert_int_equal(ewa_image_load_memory(context, exact, size_bytes, "cut.exr", &image), expected);
-    free(exact);
 }
 
 TEST_ON(test_every_truncation_is_refused, 1) {
@@ -85,11 +83,11 @@ TEST_ON(test_other_attributes_change_no_pixel, 1) {
     assert_int_equal(ewa_image_load_memory(context, dwa_lines, sizeof dwa_lines, "plain.exr", &plain), EWA_OK);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         size_t size_bytes;
+        OWNED(check_free)
         uint8_t *bytes = make_with_attributes((const uint8_t *)cases[i].text, cases[i].size_bytes, &size_bytes);
         assert_int_equal(ewa_image_load_memory(context, bytes, size_bytes, "more.exr", &image), EWA_OK);
         assert_memory_equal(image.pixels, plain.pixels, sizeof(float) * 4 * 32 * 32);
         ewa_image_free(&image);
-        free(bytes);
     }
     ewa_image_free(&plain);
 }
@@ -101,7 +99,7 @@ TEST(test_header) {
     const size_t more = sizeof two - 1, header_bytes = HEADER_BYTES + more;
     uint8_t copy[HEADER_BYTES + sizeof two];
     size_t size_bytes;
-    uint8_t *bytes = make_with_attributes((const uint8_t *)two, more, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = make_with_attributes((const uint8_t *)two, more, &size_bytes);
     assert_int_equal(ewa_exr_measure_header(bytes, size_bytes), header_bytes);
     ewa_exr_copy_header(bytes, header_bytes, copy);
     assert_memory_equal(copy, dwa_lines, HEADER_BYTES - 1);
@@ -110,33 +108,29 @@ TEST(test_header) {
     ewa_exr_copy_header(dwa_lines, HEADER_BYTES, copy);
     assert_memory_equal(copy, dwa_lines, HEADER_BYTES);
     for (size_t length = 0; length < header_bytes; length++) {
-        uint8_t *cut = malloc(length ? length : 1); // of just this size, for the sanitizer
+        OWNED(check_free) uint8_t *cut = malloc(length ? length : 1); // of just this size, for the sanitizer
         assert_non_null(cut);
         memcpy(cut, bytes, length);
         assert_int_equal(ewa_exr_measure_header(cut, length), 0);
         assert_int_equal(ewa_exr_has_one_part(cut, length), length >= ATTRIBUTES_AT);
-        free(cut);
     }
     bytes[ATTRIBUTES_AT + 2] = 0; // no type
     assert_int_equal(ewa_exr_measure_header(bytes, size_bytes), 0);
     bytes[ATTRIBUTES_AT + 2] = 'b';
     bytes[ATTRIBUTES_AT + more + 16] ^= 1; // the list of channels is a byte longer than it says, or shorter
     assert_int_equal(ewa_exr_measure_header(bytes, size_bytes), 0);
-    free(bytes);
 }
 
 TEST(test_several_parts_are_named) {
     static const char part[] = "name\0string\0\1\0\0\0atype\0string\0\15\0\0\0scanlineimagechunkCount\0int\0\4\0\0\0\1\0\0\0";
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     size_t size_bytes;
-    uint8_t *bytes = make_with_attributes((const uint8_t *)part, sizeof part - 1, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = make_with_attributes((const uint8_t *)part, sizeof part - 1, &size_bytes);
     bytes[5] |= 0x10;                          // of the version: there are several parts
     bytes[HEADER_BYTES + sizeof part - 1] = 0; // no second header
     load_exactly(context, bytes, size_bytes, EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(log.text, "DWA, which is read of files of one part"));
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
 /// Where sizes claim more than there is, no room is made for it: the limit is 1 MiB.
@@ -146,24 +140,21 @@ TEST(test_sizes_beyond_the_file_are_refused) {
     WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 1 << 20;
     options.message = check_log_keep, options.message_user = &log;
-    ewa_context *context;
+    OWNED(ewa_context_destroy) ewa_context *context;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         uint8_t attribute[] = "comments\0string\0....hello";
         size_t size_bytes;
         memcpy(attribute + 16, sizes[i], 4);
-        uint8_t *bytes = make_with_attributes(attribute, sizeof attribute - 1, &size_bytes);
+        OWNED(check_free) uint8_t *bytes = make_with_attributes(attribute, sizeof attribute - 1, &size_bytes);
         load_exactly(context, bytes, size_bytes, EWA_ERROR_FORMAT);
-        free(bytes);
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_status load_work(ewa_context *context, void *user) {
     (void)user;
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     const ewa_status status = ewa_image_load_memory(context, dwa_lines, sizeof dwa_lines, "dwa.exr", &image);
-    ewa_image_free(&image);
     return status;
 }
 

@@ -46,13 +46,12 @@ static int count_files(const place *p) {
 }
 
 static int tear_down(void **state) {
-    place *p = *state;
+    OWNED(check_free) place *p = *state;
     DIR *folder = opendir(p->folder);
     for (struct dirent *entry; (entry = readdir(folder));) unlinkat(dirfd(folder), entry->d_name, 0);
     closedir(folder);
     assert_int_equal(rmdir(p->folder), 0);
     ewa_context_destroy(&p->context);
-    free(p);
     return 0;
 }
 
@@ -163,7 +162,7 @@ TEST_WITHIN(test_large_and_small_pieces_keep_their_order, set_up, tear_down) {
     place *p = *state;
     char path[128];
     enum { SIZE = 1000000 };
-    uint8_t *bytes = malloc(SIZE);
+    OWNED(check_free) uint8_t *bytes = malloc(SIZE);
     check_random random = {7};
     for (int i = 0; i < SIZE; i++) bytes[i] = (uint8_t)check_random_u64(&random);
     ewa_writer *writer = NULL;
@@ -181,7 +180,6 @@ TEST_WITHIN(test_large_and_small_pieces_keep_their_order, set_up, tear_down) {
     assert_int_equal(file.size_bytes, SIZE);
     assert_memory_equal(file.bytes, bytes, SIZE);
     ewa_file_unmap(p->context, &file);
-    free(bytes);
 }
 
 TEST_WITHIN(test_abort_leaves_the_old_file, set_up, tear_down) {
@@ -296,7 +294,7 @@ TEST_WITHIN(test_given_up, set_up, tear_down) {
     place *p = *state;
     char path[128];
     const size_t page = (size_t)sysconf(_SC_PAGESIZE), size_bytes = 64 * page;
-    uint8_t *bytes = malloc(size_bytes);
+    OWNED(check_free) uint8_t *bytes = malloc(size_bytes);
     for (size_t i = 0; i < size_bytes; i++) bytes[i] = (uint8_t)(i / page + i % 7);
     FILE *out = fopen(inside(p, "large", path), "wb");
     assert_int_equal(fwrite(bytes, 1, size_bytes, out), size_bytes);
@@ -324,7 +322,6 @@ TEST_WITHIN(test_given_up, set_up, tear_down) {
     assert_int_equal(msync(other, page, MS_ASYNC), 0); // still there
     assert_int_equal(other[0], 17);
     munmap(other, page);
-    free(bytes);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

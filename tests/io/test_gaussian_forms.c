@@ -14,8 +14,8 @@ TEST(forms) {
     sample_limits limits;
     for (int number = 0; sample_make(number, &file, &degree, &limits); number++) {
         check_log log = {.count = 0};
-        ewa_context *context = check_context(2, &log);
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &log);
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         ewa_gaussian_facts facts;
         if (ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, &facts) != EWA_OK)
             fail_msg("form %d: %s", number, log.text);
@@ -36,8 +36,6 @@ TEST(forms) {
                     (facts.format == EWA_GAUSSIANS_SPZ || number == 16)); // SOG 1 cannot say so
         if (facts.format == EWA_GAUSSIANS_SPZ) assert_int_equal(facts.version, number - 4);
         if (facts.format == EWA_GAUSSIANS_SOG) assert_int_equal(facts.version, number == 16 ? 2 : 1);
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -60,18 +58,16 @@ static void check_in_order(const ewa_gaussians *set) {
 
 /// Loads bytes in memory of their own size, so that a sanitizer sees what is read beyond them.
 static ewa_status load_exact(ewa_context *context, const uint8_t *bytes, size_t size, check_log *log) {
-    uint8_t *own = malloc(size ? size : 1);
+    OWNED(check_free) uint8_t *own = malloc(size ? size : 1);
     assert_non_null(own);
     memcpy(own, bytes, size);
-    ewa_gaussians set;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     memset(log, 0, sizeof *log);
     const ewa_status status = ewa_gaussians_load_memory(context, own, size, "test", NULL, &set, NULL);
     if (status == EWA_OK)
         check_in_order(&set);
     else
         assert_true(set.centers == NULL && set.count == 0 && log->count > 0);
-    ewa_gaussians_free(&set);
-    free(own);
     return status;
 }
 
@@ -81,14 +77,13 @@ TEST(cut_short) {
     sample_limits limits;
     for (int number = 0; sample_make(number, &file, &degree, &limits); number++) {
         check_log log;
-        ewa_context *context = check_context(1, &log);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
         for (size_t cut = 0; cut<file.size; cut += cut> 300 && cut + 300 < file.size && number > 8 ? 7 : 1) {
             const ewa_status status = load_exact(context, file.bytes, cut, &log);
             // Whole records of .splat are a .splat.
             if (status == EWA_OK && !(number == 4 && cut % 32 == 0))
                 fail_msg("form %d read from %zu bytes", number, cut);
         }
-        ewa_context_destroy(&context);
     }
 }
 
@@ -99,7 +94,7 @@ TEST(broken) {
     check_random random = {3};
     for (int number = 0; sample_make(number, &file, &degree, &limits); number++) {
         check_log log;
-        ewa_context *context = check_context(1, &log);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
         static uint8_t copy[SAMPLE_ROOM];
         for (int round = 0; round < 600; round++) {
             memcpy(copy, file.bytes, file.size);
@@ -111,7 +106,6 @@ TEST(broken) {
             }
             load_exact(context, copy, file.size, &log);
         }
-        ewa_context_destroy(&context);
     }
 }
 
@@ -125,11 +119,10 @@ typedef struct refusal {
 
 static void refuse(const sample_file *file, ewa_status status, const char *reason) {
     check_log log;
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     const ewa_status got = load_exact(context, file->bytes, file->size, &log);
     if (got != status || !strstr(log.text, reason))
         fail_msg("%s: '%s', not '%s'", ewa_status_name(got), log.text, reason);
-    ewa_context_destroy(&context);
 }
 
 /// Versions, counts and numbers that cannot be.
@@ -169,7 +162,7 @@ TEST(lies) {
     sample_splat(&file);
     memset(file.bytes + 32 + 28, 128, 4);
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_gaussians set;
     assert_int_equal(ewa_gaussians_load_memory(context, file.bytes, file.size, "a.splat", NULL, &set, NULL),
                      EWA_ERROR_FORMAT);
@@ -180,7 +173,6 @@ TEST(lies) {
     assert_non_null(strstr(log.text, "no whole number of records"));
     assert_int_equal(ewa_gaussians_load_memory(context, "", 0, "a.splat", NULL, &set, NULL),
                      EWA_ERROR_FORMAT);
-    ewa_context_destroy(&context);
 }
 
 /// Replaces a piece of a file by one of the same length.
@@ -297,7 +289,7 @@ TEST(beside) {
     sample_sog_meta(&meta, "2");
     scratch_write(scratch_path("meta.json", path), meta.bytes, meta.size);
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_gaussians set;
     ewa_gaussian_format format;
     assert_int_equal(ewa_gaussians_probe(context, path, &format), EWA_OK);
@@ -308,7 +300,6 @@ TEST(beside) {
     assert_int_equal(ewa_gaussians_load_memory(context, meta.bytes, meta.size, "meta.json", NULL, &set, NULL),
                      EWA_ERROR_IO);
     assert_non_null(strstr(log.text, "means_l.webp"));
-    ewa_context_destroy(&context);
 }
 
 /// A node moves, turns and scales what hangs on it.
@@ -317,7 +308,7 @@ TEST_ON(placed, 1) {
     sample_glb(&file, 1,
                "\"translation\":[10,20,30],\"rotation\":[0,0,0.70710678,0.70710678],\"scale\":[2,2,2],",
                "KHR_gaussian_splatting:");
-    ewa_gaussians set;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     ewa_gaussian_facts facts;
     assert_int_equal(ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, &facts),
                      EWA_OK);
@@ -333,7 +324,6 @@ TEST_ON(placed, 1) {
         sample_near("x", i, set.harmonics[3 * (4 * i + 3)], -sample_rest(1, 0), 1e-5);
         sample_near("z", i, set.harmonics[3 * (4 * i + 2)], sample_rest(2, 0), 1e-5);
     }
-    ewa_gaussians_free(&set);
 }
 
 /// A .glb of the given JSON, in which %zu is the number of bytes of the buffer.
@@ -368,7 +358,7 @@ TEST(packed_in_gltf) {
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}",
         &body);
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_gaussians set;
     if (ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, NULL) != EWA_OK)
         fail_msg("%s", log.text);
@@ -387,7 +377,6 @@ TEST(packed_in_gltf) {
     assert_int_equal(
         ewa_model_load_memory(context, file.bytes, file.size, "test", NULL, EWA_MODEL_MESH, NULL, &model),
         EWA_ERROR_UNSUPPORTED);
-    ewa_context_destroy(&context);
 }
 
 /// A count that a short file cannot have, of accessors without a buffer: refused wherever it is met.
@@ -430,16 +419,14 @@ TEST(draft) {
              "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}",
              &body);
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_gaussians set;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     if (ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, NULL) != EWA_OK)
         fail_msg("%s", log.text);
     assert_non_null(strstr(log.text, "linear light")); // which a set cannot say
     const double wanted[3] = {0.5 / 0.28209479177387814, 0, -0.5 / 0.28209479177387814};
     for (uint32_t k = 0; k < 3; k++) sample_near("colour", k, set.harmonics[k], wanted[k], 1e-6);
     assert_true(set.opacities[0] == 0.25f && set.rotations[0] == 1 && set.scales[2] == 0.3f);
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// SPZ that names its axes: whichever these are, a set has right, down, front.
@@ -460,16 +447,14 @@ TEST(axes) {
             continue;
         }
         if (number != 4 && number != 6) continue; // right, up, back; right, down, front
-        ewa_context *context = check_context(1, NULL);
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         ewa_gaussian_facts facts;
         assert_int_equal(
             ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, &facts), EWA_OK);
         assert_true(facts.up_world[1] == -1);
         if (number == 4) sample_turn_over(&set);
         sample_check(&set, 4, &(sample_limits){1e-3, 4e-2, 2e-4, 2e-3, 2e-2, 1e-2});
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 

@@ -93,7 +93,7 @@ static void check_places(const ewa_gaussians *a, const ewa_gaussians *b, double 
 }
 
 TEST(levels) {
-    ewa_context *context = check_context(2, &(check_log){.count = 0});
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &(check_log){.count = 0});
     ewa_gaussians set, all, level;
     ewa_gaussian_facts facts;
     char path[512];
@@ -144,19 +144,16 @@ TEST(levels) {
     remove_folder("levels");
     ewa_gaussians_free(&set);
     ewa_gaussians_free(&all);
-    ewa_context_destroy(&context);
 }
 
 TEST(same_files) {
     static const char *const names[] = {"one", "three"};
     char path[512];
     for (int n = 0; n < 2; n++) {
-        ewa_context *context = check_context(n ? 3 : 1, NULL);
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(n ? 3 : 1, NULL);
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         make_set(context, COUNT, 0, &set);
         assert_int_equal(ewa_gaussians_save(&set, make_folder(names[n], path), NULL), EWA_OK);
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
     assert_int_equal(check_same_folders(names[0], names[1]), LEVELS);
     remove_folder("one");
@@ -169,7 +166,7 @@ TEST(of_files) {
     enum { MANY = 320000 }; // more than a bin of 16 MiB, and two files of the finest level
     static const char *const names[] = {"whole", "parts"};
     check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &log);
     for (int n = 0; n < 3; n++) {
         const uint32_t many = n == 0 ? MANY : COUNT;
         ewa_gaussians set;
@@ -195,13 +192,10 @@ TEST(of_files) {
         remove_folder(names[1]);
         assert_int_equal(unlink(file), 0);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_gaussians set;
+TEST_LOGGED(refused, 1) {
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     char path[512];
     make_set(context, 100, 4, &set);
     make_folder("refused", path);
@@ -209,17 +203,15 @@ TEST(refused) {
     assert_int_equal(ewa_gaussians_save(&set, make_folder("refused", path), NULL), EWA_ERROR_IO);
     assert_true(access(path, F_OK) != 0 && access(level_path("refused", 0, path), F_OK) != 0);
     rmdir(level_path("refused", 3, path));
-    log.count = 0;
+    log->count = 0;
     assert_int_equal(ewa_gaussians_save(&set, make_folder("refused", path), NULL), EWA_OK);
-    assert_int_equal(log.count, 1); // degree 4 has no room, said once
-    assert_non_null(strstr(log.text, "degree 4"));
+    assert_int_equal(log->count, 1); // degree 4 has no room, said once
+    assert_non_null(strstr(log->text, "degree 4"));
     set.flat = true;
     for (size_t i = 0; i < set.count; i++) set.scales[3 * i + 2] = 0;
     assert_int_equal(ewa_gaussians_save(&set, path, NULL), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "have no levels"));
+    assert_non_null(strstr(log->text, "have no levels"));
     remove_folder("refused");
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -35,8 +35,8 @@ TEST(columns) {
              "4 5 6 -1 0 1 2.1972246 -1 -2 -3 1 -1 1 -1\n",
              head, plain);
     check_log log;
-    ewa_context *context;
-    ewa_gaussians set;
+    OWNED(ewa_context_destroy) ewa_context *context;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     ewa_gaussian_facts facts;
     assert_int_equal(load(text, strlen(text), &set, &facts, &log, &context), EWA_OK);
     assert_int_equal(set.count, 2);
@@ -56,8 +56,6 @@ TEST(columns) {
     check_near(set.opacities[1], 0.9);
     check_near(set.rotations[0], 1);
     for (int k = 0; k < 4; k++) check_near(set.rotations[4 + k], k % 2 ? -0.5 : 0.5);
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Classes, by whatever name and number; what is none is 0, and said.
@@ -79,15 +77,13 @@ TEST(classes) {
         snprintf(text, sizeof text, "%selement vertex 2\n%sproperty %s\nend_header\n1 2 3 0 0 0 0 -1 -2 -3 1 0 0 0 %s\n4 5 6 0 0 0 0 -1 -2 -3 1 0 0 0 %s\n",
                  head, plain, cases[i].property, cases[i].first, cases[i].second);
         check_log log;
-        ewa_context *context;
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(load(text, strlen(text), &set, NULL, &log, &context), EWA_OK);
         assert_true((set.classes != NULL) == (cases[i].classes[0] >= 0));
         for (int k = 0; k < 2 && set.classes; k++) assert_int_equal(set.classes[k], cases[i].classes[k]);
         assert_int_equal(log.count, cases[i].said != NULL);
         if (cases[i].said) assert_non_null(strstr(log.text, cases[i].said));
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -113,15 +109,13 @@ TEST(comments) {
         snprintf(text, sizeof text, "%s%s\nelement vertex 1\n%send_header\n1 2 3 0 0 0 0 -1 -2 -3 1 0 0 0\n",
                  head, cases[i].comment, plain);
         check_log log;
-        ewa_context *context;
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         ewa_gaussian_facts facts;
         assert_int_equal(load(text, strlen(text), &set, &facts, &log, &context), EWA_OK);
         assert_true(set.antialiased == cases[i].antialiased && set.flat == cases[i].flat);
         assert_true((facts.up_world[2] == 1) == cases[i].z_up && facts.up_world[1] == 0);
         assert_true((set.scales[2] == 0) == cases[i].flat);
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -138,8 +132,8 @@ TEST(harmonics) {
             at += snprintf(text + at, sizeof text - (size_t)at, " %u",
                            1000 * (i / (count - 1)) + i % (count - 1) + 1);
         check_log log;
-        ewa_context *context;
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(load(text, (size_t)at, &set, NULL, &log, &context), EWA_OK);
         assert_int_equal(set.sh_degree, degree);
         for (uint32_t color = 0; color < 3; color++) {
@@ -147,8 +141,6 @@ TEST(harmonics) {
             for (uint32_t k = 1; k < count; k++)
                 assert_true(set.harmonics[3 * k + color] == (float)(1000 * color + k));
         }
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -159,12 +151,10 @@ TEST(flat) {
         "property float scale_0\nproperty float scale_1\nproperty float rot_0\nproperty float rot_1\n"
         "property float rot_2\nproperty float rot_3\nend_header\n0 0 0 0 0 0 0 0 0 1 0 0 0\n";
     check_log log;
-    ewa_context *context;
-    ewa_gaussians set;
+    OWNED(ewa_context_destroy) ewa_context *context;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     assert_int_equal(load(text, sizeof text - 1, &set, NULL, &log, &context), EWA_OK);
     assert_true(set.flat && set.scales[0] == 1 && set.scales[1] == 1 && set.scales[2] == 0);
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// A filter widens, and the opacity falls as the volume grows.
@@ -175,16 +165,14 @@ TEST(filtered) {
              "0 2\n",
              head, plain);
     check_log log;
-    ewa_context *context;
-    ewa_gaussians set;
+    OWNED(ewa_context_destroy) ewa_context *context;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     ewa_gaussian_facts facts;
     assert_int_equal(load(text, strlen(text), &set, &facts, &log, &context), EWA_OK);
     assert_true(facts.filtered && set.antialiased);
     check_near(set.scales[0], sqrt(5));
     check_near(set.scales[2], sqrt(8));
     check_near(set.opacities[0], 0.5 * sqrt(4.0 / 200));
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Coordinates of a map in doubles keep their digits by the origin.
@@ -211,7 +199,7 @@ TEST(doubles) {
         }
     }
     check_log log;
-    ewa_context *context;
+    OWNED(ewa_context_destroy) ewa_context *context;
     ewa_gaussians set;
     assert_int_equal(load(text, at, &set, NULL, &log, &context), EWA_OK);
     for (int i = 0; i < 6; i++)
@@ -223,7 +211,6 @@ TEST(doubles) {
         assert_true(log.count > 0);
         log.count = 0;
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(refused) {
@@ -249,13 +236,12 @@ TEST(refused) {
         snprintf(text, sizeof text, "%selement vertex %s\n%s%send_header\n%s\n", head, cases[i].count, plain,
                  cases[i].more, cases[i].record);
         check_log log;
-        ewa_context *context;
+        OWNED(ewa_context_destroy) ewa_context *context;
         ewa_gaussians set;
         assert_int_equal(load(text, strlen(text), &set, NULL, &log, &context), EWA_ERROR_FORMAT);
         if (!strstr(log.text, cases[i].reason))
             fail_msg("'%s' says nothing of '%s'", log.text, cases[i].reason);
         assert_null(set.centers);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -267,12 +253,10 @@ TEST(steep) {
              "0 1 0 0 0\n",
              head, plain);
     check_log log;
-    ewa_context *context;
-    ewa_gaussians set;
+    OWNED(ewa_context_destroy) ewa_context *context;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     assert_int_equal(load(text, strlen(text), &set, NULL, &log, &context), EWA_OK);
     assert_true(set.opacities[0] == 1 && set.opacities[1] == 0 && set.scales[0] == 0 && set.scales[3] == 0);
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -108,10 +108,9 @@ TEST_ON(guitar, 2) {
             const double maximum = fmax(fmax((double)three[0], (double)three[1]), (double)three[2]);
             assert_true(fabs((double)two[0] / maximum - 1) < 1e-4 && two[1] <= two[0] && two[2] == 0);
         }
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_gaussians_to_cloud(&flat.set, &cloud), EWA_OK);
         assert_int_equal(ewa_cloud_point_count(cloud), flat.set.count);
-        ewa_cloud_destroy(&cloud);
     }
     ewa_gaussians_free(&plain.set);
     ewa_gaussians_free(&packed.set);

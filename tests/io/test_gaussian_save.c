@@ -78,8 +78,8 @@ TEST(round_trips) {
                  {"meta.json", 0, 0, EWA_GAUSSIANS_SOG, {1e-4, 1e-6, 2e-5, 2e-3, 1e-6, 1e-6}}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int antialiased = 0; antialiased < 2; antialiased++) {
-            ewa_context *context = check_context(2, NULL);
-            ewa_gaussians set, read;
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+            OWNED(ewa_gaussians_free) ewa_gaussians set, read;
             ewa_gaussian_facts facts;
             make_set(context, 4, &set);
             set.antialiased = antialiased;
@@ -93,9 +93,6 @@ TEST(round_trips) {
             if (facts.format == EWA_GAUSSIANS_GLTF) sample_turn_over(&read);
             assert_false(read.flat);
             sample_check(&read, cases[i].degree, &cases[i].limits);
-            ewa_gaussians_free(&set);
-            ewa_gaussians_free(&read);
-            ewa_context_destroy(&context);
         }
 }
 
@@ -108,7 +105,7 @@ TEST_ON(upright, 1) {
         for (int form = 0; form < FORMS; form++) {
             static const char *const names[FORMS] = {"u.ply", "u.splat", "u.spz", "u.glb", "u.sog"};
             char path[512];
-            ewa_gaussians set, read;
+            OWNED(ewa_gaussians_free) ewa_gaussians set, read;
             WITH_DEFAULTS(ewa_gaussians_save_options, options);
             memcpy(options.up_world, ups[u], sizeof ups[u]);
             options.spz_version = 4;
@@ -130,8 +127,6 @@ TEST_ON(upright, 1) {
             const uint32_t of[3] = {9, 3, 6}; // x y z
             for (uint32_t k = 0; k < 3 && read.sh_degree; k++)
                 sample_near("colour", k, (k < 2 ? -1 : 1) * read.harmonics[of[k]], turned[u][k], 1e-2);
-            ewa_gaussians_free(&set);
-            ewa_gaussians_free(&read);
         }
 }
 
@@ -175,9 +170,7 @@ TEST_ON(turns, 1) {
 }
 
 /// Flat ones, opacities of 0 and 1, scales of 0, places far away.
-TEST(corners) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(corners, 1) {
     ewa_gaussians set, read;
     make_set(context, 0, &set);
     set.flat = true;
@@ -191,67 +184,61 @@ TEST(corners) {
     for (uint32_t i = 0; i < 9; i++)
         assert_true(set.origin[i % 3] + (double)set.centers[i] ==
                     read.origin[i % 3] + (double)read.centers[i]);
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     ewa_gaussians_free(&read);
     pass(context, &set, "flat.spz", 4, 0, &read, NULL);
-    assert_true(!read.flat && log.count == 2); // that they are flat, and that steps are large
+    assert_true(!read.flat && log->count == 2); // that they are flat, and that steps are large
     for (uint32_t i = 0; i < 9; i++)
         assert_true(fabs(set.origin[i % 3] + (double)set.centers[i] - (double)read.centers[i]) <= 0.51);
     ewa_gaussians_free(&read);
-    log.count = 0;
+    log->count = 0;
     set.origin[0] = 4000;
     pass(context, &set, "flat.sog", 4, 0, &read, NULL);
     order(&read);
-    assert_true(read.flat && read.scales[2] == 0 && read.scales[0] < 3e-9f && log.count == 0);
+    assert_true(read.flat && read.scales[2] == 0 && read.scales[0] < 3e-9f && log->count == 0);
     assert_true(read.opacities[0] == 0 && read.opacities[1] == 1);
     sample_near("colour without opacity", 0, read.harmonics[0], sample_first(0), 1e-6);
     for (uint32_t i = 0; i < 9; i++)
         assert_true(fabs(set.origin[i % 3] + (double)set.centers[i] - (double)read.centers[i]) <= (i % 3 ? 1 : 0.01));
     ewa_gaussians_free(&read);
     pass(context, &set, "flat.glb", 4, 0, &read, NULL);
-    assert_true(!read.flat && read.scales[2] == 0 && log.count == 1);
+    assert_true(!read.flat && read.scales[2] == 0 && log->count == 1);
     ewa_gaussians_free(&read);
     char path[512];
     set.origin[0] = 1e7;
     assert_int_equal(ewa_gaussians_save(&set, scratch_path("far.spz", path), NULL), EWA_ERROR_LIMIT);
-    assert_non_null(strstr(log.text, "24 bits"));
+    assert_non_null(strstr(log->text, "24 bits"));
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// What is lost is said, with numbers.
-TEST(losses) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(losses, 1) {
     ewa_gaussians set, read;
     make_set(context, 2, &set);
     pass(context, &set, "loss.splat", 4, 0, &read, NULL);
-    assert_int_equal(log.count, 1);
-    assert_non_null(strstr(log.text, "degree 1 to 2"));
+    assert_int_equal(log->count, 1);
+    assert_non_null(strstr(log->text, "degree 1 to 2"));
     ewa_gaussians_free(&read);
     set.harmonics[0] = 9;
     pass(context, &set, "loss.splat", 4, 0, &read, NULL);
-    assert_non_null(strstr(log.text, "colours of 1 Gaussians"));
+    assert_non_null(strstr(log->text, "colours of 1 Gaussians"));
     ewa_gaussians_free(&read);
     ewa_gaussians_free(&set);
     static const char *const names[] = {"loss.sog", "loss.glb"};
     make_set(context, 4, &set);
     for (int n = 0; n < 2; n++) {
-        log.count = 0;
+        log->count = 0;
         pass(context, &set, names[n], 4, 0, &read, NULL);
         assert_int_equal(read.sh_degree, 3);
-        assert_int_equal(log.count, 1);
-        assert_non_null(strstr(log.text, "degree 4"));
+        assert_int_equal(log->count, 1);
+        assert_non_null(strstr(log->text, "degree 4"));
         ewa_gaussians_free(&read);
     }
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// PLY keeps classes, with another up too; of parts each Gaussian keeps its own; other forms say that they have no room.
-TEST(classes) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(classes, 1) {
     ewa_gaussians set, read, kept;
     make_set(context, 0, &set);
     assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
@@ -271,24 +258,21 @@ TEST(classes) {
         ewa_gaussians_free(&kept);
         ewa_gaussians_free(&read);
     }
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     pass(context, &set, "classes.spz", 4, 0, &read, NULL);
     assert_null(read.classes);
-    assert_int_equal(log.count, 1);
-    assert_non_null(strstr(log.text, "SPZ has no room for classes"));
+    assert_int_equal(log->count, 1);
+    assert_non_null(strstr(log->text, "SPZ has no room for classes"));
     ewa_gaussians_free(&read);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
-TEST(refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(refused, 1) {
     ewa_gaussians set, none = {.context = context};
     char path[512];
     make_set(context, 0, &set);
     assert_int_equal(ewa_gaussians_save(&set, scratch_path("a.las", path), NULL), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, ".ply, .compressed.ply, .splat, .spz, .glb, .sog, meta.json and lod-meta.json"));
+    assert_non_null(strstr(log->text, ".ply, .compressed.ply, .splat, .spz, .glb, .sog, meta.json and lod-meta.json"));
     assert_int_equal(ewa_gaussians_save(&none, scratch_path("a.ply", path), NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(NULL, path, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(&set, "/nowhere/at/all.spz", NULL), EWA_ERROR_IO);
@@ -301,7 +285,7 @@ TEST(refused) {
         const float old = *numbers[i];
         *numbers[i] = NAN;
         assert_int_equal(ewa_gaussians_save(&set, path, NULL), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, "Gaussian 1 of 3"));
+        assert_non_null(strstr(log->text, "Gaussian 1 of 3"));
         *numbers[i] = old;
     }
     set.scales[4] = -1;
@@ -316,7 +300,6 @@ TEST(refused) {
     assert_int_equal(ewa_gaussians_format_of("x.glb"), EWA_GAUSSIANS_GLTF);
     assert_int_equal(ewa_gaussians_format_of("-"), EWA_GAUSSIANS_PLY);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Compressed PLY of several chunks, the last one not full: in another order, each within a step of the chunks that
@@ -324,7 +307,7 @@ TEST(refused) {
 TEST_ON(chunks, 2) {
     enum { COUNT = 5000 };
     check_random random = {5};
-    ewa_gaussians set, read;
+    OWNED(ewa_gaussians_free) ewa_gaussians set, read;
     assert_int_equal(ewa_gaussians_create(context, COUNT, 1, &set), EWA_OK);
     for (size_t i = 0; i < COUNT; i++) {
         for (size_t k = 0; k < 3; k++) {
@@ -362,15 +345,13 @@ TEST_ON(chunks, 2) {
     }
     print_message("chunks: centres within %g, scales %g, harmonics %g, but for %u\n", worst[0], worst[1], worst[2], coarse);
     assert_true(coarse <= 256 && worst[0] < 2e-3 && worst[1] < 4e-3 && worst[2] < 1.6e-2 + 1e-6);
-    ewa_gaussians_free(&set);
-    ewa_gaussians_free(&read);
 }
 
 /// SOG of many that share palettes and codes: each within the steps of these, those far from all others too.
 TEST_ON(codes, 2) {
     enum { COUNT = 5000, SH = 16 };
     check_random random = {5};
-    ewa_gaussians set, read;
+    OWNED(ewa_gaussians_free) ewa_gaussians set, read;
     assert_int_equal(ewa_gaussians_create(context, COUNT, 3, &set), EWA_OK);
     for (size_t i = 0; i < COUNT; i++) {
         const double kind = (double)(i % 300) - 150; // of which each has palettes of its own
@@ -397,14 +378,12 @@ TEST_ON(codes, 2) {
     print_message("codes: scales within %g, colours %g, harmonics %g\n", worst[0], worst[1], worst[2]);
     assert_true(worst[0] < 0.02 && worst[1] < 0.02 && worst[2] < 6e-3);
     assert_true(fabs(log((double)read.scales[21]) - 6) < 0.05 && fabs((double)read.harmonics[3 * SH * 8] - 40) < 0.2);
-    ewa_gaussians_free(&set);
-    ewa_gaussians_free(&read);
 }
 
 /// Files beside meta.json get their names together: none where one cannot.
 TEST(beside) {
-    ewa_context *context = check_context(1, &(check_log){.count = 0});
-    ewa_gaussians set;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &(check_log){.count = 0});
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     char path[512];
     make_set(context, 0, &set);
     scratch_path("beside", path);
@@ -422,19 +401,17 @@ TEST(beside) {
         assert_int_equal(remove(scratch_path(name, path)), 0);
     }
     remove(scratch_path("beside/meta.json", path));
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes for any number of threads.
 TEST(same_bytes) {
     static const char *const names[] = {"s.ply", "s.splat", "s.spz", "s.compressed.ply", "s.glb", "s.sog"};
     for (int n = 0; n < 6; n++) {
-        uint8_t *first = NULL;
+        OWNED(check_free) uint8_t *first = NULL;
         size_t first_size = 0;
         for (uint32_t threads = 1; threads < 4; threads++) {
-            ewa_context *context = check_context(threads, NULL);
-            ewa_gaussians set;
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
+            OWNED(ewa_gaussians_free) ewa_gaussians set;
             char path[512];
             make_set(context, 3, &set);
             assert_int_equal(ewa_gaussians_save(&set, scratch_path(names[n], path), NULL), EWA_OK);
@@ -447,10 +424,7 @@ TEST(same_bytes) {
             } else {
                 first = bytes, first_size = size;
             }
-            ewa_gaussians_free(&set);
-            ewa_context_destroy(&context);
         }
-        free(first);
     }
 }
 

@@ -13,7 +13,7 @@ static void write_files(ewa_context *context) {
     static const char *const names[] = {"fine.sog", "coarse.sog", "sky.sog"};
     char path[512];
     for (uint32_t f = 0; f < 3; f++) {
-        ewa_gaussians set;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_create(context, f == 0 ? COUNT : 2, f == 0, &set), EWA_OK);
         for (uint32_t i = 0; i < set.count; i++) {
             for (uint32_t k = 0; k < 3; k++) set.centers[3 * i + k] = (float)(10 * f + i + 0.1 * k), set.scales[3 * i + k] = 0.1f;
@@ -22,7 +22,6 @@ static void write_files(ewa_context *context) {
         }
         for (uint32_t k = 0; f == 0 && k < 12 * COUNT; k++) set.harmonics[k] = (float)(k % 12) * 0.1f;
         assert_int_equal(ewa_gaussians_save(&set, scratch_path(names[f], path), NULL), EWA_OK);
-        ewa_gaussians_free(&set);
     }
 }
 
@@ -48,9 +47,7 @@ static void check_same(const ewa_gaussians *a, uint32_t i, const ewa_gaussians *
         assert_true(a->harmonics[own * i + k] == (k < other ? b->harmonics[other * j + k] : 0));
 }
 
-TEST(finest_levels) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+TEST_LOGGED(finest_levels, 2) {
     ewa_gaussians set, files[3];
     ewa_gaussian_facts facts;
     ewa_gaussian_format format;
@@ -71,8 +68,7 @@ TEST(finest_levels) {
     ewa_gaussians_free(&set);
     for (int f = 0; f < 3; f++) ewa_gaussians_free(&files[f]);
     assert_int_equal(ewa_gaussians_load_memory(context, good, sizeof good - 1, "lod-meta.json", NULL, &set, NULL), EWA_ERROR_IO);
-    assert_non_null(strstr(log.text, "no folder"));
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "no folder"));
 }
 
 TEST(wrong) {
@@ -99,11 +95,11 @@ TEST(wrong) {
         {"\"count\":8", "\"count\":0.5", "not named", EWA_ERROR_FORMAT},
     };
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     write_files(context);
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         char text[1024];
-        ewa_gaussians set;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         const char *at = strstr(good, cases[n].from);
         assert_non_null(at);
         snprintf(text, sizeof text, "%.*s%s%s", (int)(at - good), good, cases[n].to, at + strlen(cases[n].from));
@@ -111,22 +107,17 @@ TEST(wrong) {
         const ewa_status status = load(context, text, strlen(text), &set, NULL);
         if (status != cases[n].status || (cases[n].said && !strstr(log.text, cases[n].said)))
             fail_msg("case %zu: %d, %s", n, (int)status, log.text);
-        ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(cut_short) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(cut_short, 1) {
     write_files(context);
     for (size_t size = 0; size < sizeof good - 1; size++) {
         ewa_gaussians set;
-        log.count = 0;
+        log->count = 0;
         assert_int_not_equal(load(context, good, size, &set, NULL), EWA_OK);
-        assert_true(log.count > 0 && !set.centers);
+        assert_true(log->count > 0 && !set.centers);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

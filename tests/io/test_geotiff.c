@@ -56,10 +56,9 @@ TEST_WITHIN(test_numbers, set_up, tear_down) {
             kind.bands = way & 4 ? 2 : 1;
             kind.separate = way & 8;
             tiff_make(&file, kind);
-            ewa_cloud *cloud = load(&file, kind.bands > 1);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, kind.bands > 1);
             expect_cells(cloud, false);
             assert_string_equal(ewa_cloud_note(cloud, "crs", NULL), "EPSG:32632");
-            ewa_cloud_destroy(&cloud);
         }
 }
 
@@ -91,14 +90,13 @@ TEST_WITHIN(test_packed, set_up, tear_down) {
             assert_int_equal(TIFFWriteScanline(tiff, real ? (void *)floats : shorts, row, 0), 1);
         }
         TIFFClose(tiff);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         messages.count = 0;
         assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
         assert_int_equal(messages.count, 1); // cells of 1
         assert_non_null(strstr(messages.text, "how large its cells are"));
         rows_expect(cloud, TIFF_COLUMNS * TIFF_ROWS, "position");
         rows_expect_world(cloud, TIFF_COLUMNS + 2, 2.5, -1.5, tiff_height(2, 1));
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -106,7 +104,7 @@ TEST_WITHIN(test_places, set_up, tear_down) {
     tiff_kind kind = PLACED;
     kind.is_point = true;
     tiff_make(&file, kind);
-    ewa_cloud *cloud = load(&file, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, 0);
     rows_expect_world(cloud, 0, 1000, 5000, 100);
     rows_expect_world(cloud, TIFF_COLUMNS + 2, 1020, 4990, tiff_height(2, 1));
     ewa_cloud_destroy(&cloud);
@@ -116,7 +114,6 @@ TEST_WITHIN(test_places, set_up, tear_down) {
     cloud = load(&file, 0);
     rows_expect_world(cloud, 0, 1005, 5005, 100);
     rows_expect_world(cloud, TIFF_COLUMNS + 2, 1015, 5025, tiff_height(2, 1));
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Cells of 0.01 degrees about 50 degrees north, with the key, and without it, where slopes tell.
@@ -124,7 +121,7 @@ TEST_WITHIN(test_degrees, set_up, tear_down) {
     for (int model = 0; model <= 2; model += 2)
         for (int tiled = 0; tiled < 2; tiled++) {
             tiff_make(&file, (tiff_kind){.scale = 0.01, .x = 7, .y = 50.025, .model = model, .tiled = tiled});
-            ewa_cloud *cloud = load(&file, 0);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, 0);
             assert_null(ewa_cloud_note(cloud, "crs", NULL));
             assert_string_equal(ewa_cloud_note(cloud, "file.degrees", NULL), "longitude 7.035, latitude 50");
             double first[3], last[3];
@@ -134,13 +131,11 @@ TEST_WITHIN(test_degrees, set_up, tear_down) {
             if (fabs((last[0] - first[0]) / 0.06 - 71696) > 1 || fabs((first[1] - last[1]) / 0.04 - 111229) > 1)
                 fail_msg("%.3f, %.3f", (last[0] - first[0]) / 0.06, (first[1] - last[1]) / 0.04);
             assert_true(first[2] == 100);
-            ewa_cloud_destroy(&cloud);
         }
     // What may be metres stays: gentle slopes.
     tiff_make(&file, (tiff_kind){.scale = 1, .x = 7, .y = 50});
-    ewa_cloud *cloud = load(&file, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, 0);
     rows_expect_world(cloud, 0, 7.5, 49.5, 100);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_no_data, set_up, tear_down) {
@@ -158,18 +153,16 @@ TEST_WITHIN(test_no_data, set_up, tear_down) {
         kind.hole = cases[i].hole;
         kind.bits = cases[i].bits;
         tiff_make(&file, kind);
-        ewa_cloud *cloud = load(&file, 0);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, 0);
         expect_cells(cloud, true);
-        ewa_cloud_destroy(&cloud);
     }
     // A strip that is not there has no heights.
     tiff_kind kind = PLACED;
     kind.no_strips = true;
     tiff_make(&file, kind);
-    ewa_cloud *cloud = load(&file, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, 0);
     rows_expect(cloud, TIFF_COLUMNS * (TIFF_ROWS - 2), "position");
     rows_expect_world(cloud, 0, 1005, 4975, tiff_height(0, 2));
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_refused, set_up, tear_down) {
@@ -222,9 +215,8 @@ TEST_WITHIN(test_sizes, set_up, tear_down) {
                     set_tag(blocks ? (tiled ? 322 : 278) : 256, sizes[a]);
                     if (!blocks || tiled) set_tag(blocks ? 323 : 257, sizes[b]);
                 }
-                ewa_cloud *cloud = NULL;
+                OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
                 ewa_cloud_load_memory(context, file.bytes, file.size, "t", &cloud);
-                ewa_cloud_destroy(&cloud);
             }
 }
 
@@ -236,9 +228,8 @@ TEST_WITHIN(test_empty, set_up, tear_down) {
         set_tag(257, 1 << 20); // rows
         set_tag(278, 16);      // of a strip
         set_tag(279, 0);       // bytes of the strips
-        ewa_cloud *cloud = load(&file, 0);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file, 0);
         assert_int_equal(ewa_cloud_point_count(cloud), 0);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -252,12 +243,12 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
         uint8_t *part = malloc(cut + 1);
         assert_non_null(part);
         memcpy(part, file.bytes, cut);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_not_equal(ewa_cloud_load_memory(context, part, cut, "t", &cloud), EWA_OK);
         assert_null(cloud);
         scratch_write(scratch_path("cut.tif", path), part, cut);
         free(part);
-        ewa_cloud_reader *reader = NULL;
+        OWNED(ewa_cloud_reader_close) ewa_cloud_reader *reader = NULL;
         if (ewa_cloud_reader_open(context, path, &options, &reader) != EWA_OK) continue;
         assert_int_equal(ewa_cloud_reader_next(reader, 100, &cloud), EWA_OK);
         const uint64_t count = cloud ? ewa_cloud_point_count(cloud) : 0;
@@ -268,8 +259,6 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
             rows_expect_world(cloud, i, 1005 + 10.0 * (double)(i % TIFF_COLUMNS),
                               4995 - 10.0 * (double)(i / TIFF_COLUMNS),
                               tiff_height((int)(i % TIFF_COLUMNS), (int)(i / TIFF_COLUMNS)));
-        ewa_cloud_destroy(&cloud);
-        ewa_cloud_reader_close(&reader);
     }
     assert_int_equal(last, 2 * 2 * TIFF_COLUMNS);
 }
@@ -285,10 +274,9 @@ TEST_WITHIN(test_name, set_up, tear_down) {
 }
 
 static ewa_status load_failing(ewa_context *failing, void *user) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     const tiff_file *f = user;
     const ewa_status status = ewa_cloud_load_memory(failing, f->bytes, f->size, "t", &cloud);
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 

@@ -11,10 +11,9 @@
 
 static ewa_status decode(ewa_context *context, const uint8_t *bytes, size_t size_bytes, ewa_image *image) {
     // Exactly as many bytes as there are, so that a sanitizer sees the first one too many.
-    uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
+    OWNED(check_free) uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
     memcpy(copy, bytes, size_bytes);
     const ewa_status status = ewa_image_load_memory(context, copy, size_bytes, "sky.hdr", image);
-    free(copy);
     return status;
 }
 
@@ -27,7 +26,7 @@ TEST_ON(test_plain_rows, 1) {
         char file[256];
         const int head = snprintf(file, sizeof file, PLAIN_HEAD "%cY 2 +X 2\n", from_bottom ? '+' : '-');
         memcpy(file + head, pixels, 16);
-        ewa_image image;
+        OWNED(ewa_image_free) ewa_image image;
         assert_int_equal(decode(context, (const uint8_t *)file, (size_t)head + 16, &image), EWA_OK);
         assert_true(image.width_px == 2 && image.height_px == 2 && image.channel_count == 3);
         const float *first = image.pixels + (from_bottom ? 6 : 0),
@@ -37,7 +36,6 @@ TEST_ON(test_plain_rows, 1) {
         for (int i = 0; i < 6; i++) assert_true(first[i] == wanted[i]);
         assert_true(last[0] == 1.5f && last[1] == 2.5f && last[2] == 3.5f);
         assert_true(last[3] == 0 && last[4] == 0 && last[5] == 0);
-        ewa_image_free(&image);
     }
 }
 
@@ -61,26 +59,22 @@ static const char RUNS[] = "#?RADIANCE\r\nEXPOSURE=2\nEXPOSURE= 0.25\n\n-Y 2 +X 
                            "\x02\x02\x00\x08\x08\x00\x01\x02\x03\x04\x05\x06\x07\x88\x40\x88\x20\x88\x88";
 
 TEST_ON(test_runs_of_components, 1) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(decode(context, BYTES(RUNS), &image), EWA_OK);
     for (size_t x = 0; x < 8; x++) {
         assert_true(image.pixels[3 * x] == 2 * 128.5f && image.pixels[3 * x + 1] == 2 * 64.5f);
         assert_true(image.pixels[3 * x + 2] == 2 * (x < 3 ? 32.5f : (float)(x - 2) + 0.5f));
         assert_true(image.pixels[24 + 3 * x] == 2 * ((float)x + 0.5f));
     }
-    ewa_image_free(&image);
 }
 
-TEST(test_every_truncation_fails) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_truncation_fails, 1) {
     ewa_image image;
     for (size_t size_bytes = 0; size_bytes < sizeof RUNS - 1; size_bytes++) {
         assert_int_equal(decode(context, (const uint8_t *)RUNS, size_bytes, &image), EWA_ERROR_FORMAT);
-        assert_non_null(strstr(log.text, "sky.hdr: "));
+        assert_non_null(strstr(log->text, "sky.hdr: "));
         assert_null(image.pixels);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_broken_files, 1) {
@@ -110,9 +104,8 @@ TEST_ON(test_broken_files, 1) {
 
 static ewa_status load_runs(ewa_context *context, void *user) {
     (void)user;
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     const ewa_status status = decode(context, BYTES(RUNS), &image);
-    ewa_image_free(&image);
     return status;
 }
 

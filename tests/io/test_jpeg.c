@@ -15,10 +15,9 @@ static uint8_t *read_picture(const char *name, size_t *size_bytes) {
 
 static ewa_status decode(ewa_context *context, const uint8_t *bytes, size_t size_bytes, ewa_image *image) {
     // Exactly as many bytes as there are, so that a sanitizer sees the first one too many.
-    uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
+    OWNED(check_free) uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
     memcpy(copy, bytes, size_bytes);
     const ewa_status status = ewa_image_load_memory(context, copy, size_bytes, "scan.jpg", image);
-    free(copy);
     return status;
 }
 
@@ -34,49 +33,41 @@ static bool is_near(const ewa_image *image, uint32_t x, uint32_t y, const int co
 TEST_ON(test_known_pixels, 1) {
     static const int red[3] = {200, 60, 40}, blue[3] = {40, 80, 220};
     static const char *const names[] = {"colour.jpg", "progressive.jpg"};
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     size_t size_bytes;
     for (int k = 0; k < 2; k++) {
-        uint8_t *bytes = read_picture(names[k], &size_bytes);
+        OWNED(check_free) uint8_t *bytes = read_picture(names[k], &size_bytes);
         assert_int_equal(decode(context, bytes, size_bytes, &image), EWA_OK);
         assert_true(image.width_px == 16 && image.height_px == 8 && image.channel_count == 3);
         assert_true(is_near(&image, 0, 0, red) && is_near(&image, 7, 7, red));
         assert_true(is_near(&image, 8, 0, blue) && is_near(&image, 15, 7, blue));
         ewa_image_free(&image);
-        free(bytes);
     }
-    uint8_t *bytes = read_picture("grey.jpg", &size_bytes); // black, grey and white rows
+    OWNED(check_free) uint8_t *bytes = read_picture("grey.jpg", &size_bytes); // black, grey and white rows
     assert_int_equal(decode(context, bytes, size_bytes, &image), EWA_OK);
     assert_true(image.width_px == 5 && image.height_px == 3 && image.channel_count == 1);
     for (uint32_t y = 0; y < 3; y++)
         assert_true(is_near(&image, 4, y, (const int[3]){y == 0 ? 0 : y == 1 ? 128 : 255}));
-    ewa_image_free(&image);
-    free(bytes);
 }
 
 /// What is cut in its pixels is a picture with a warning, as other programs have it; all else is an error.
-TEST(test_every_truncation) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_truncation, 1) {
     static const char *const names[] = {"colour.jpg", "progressive.jpg", "grey.jpg"};
     for (int k = 0; k < 3; k++) {
         size_t size_bytes, whole = 0;
-        uint8_t *bytes = read_picture(names[k], &size_bytes);
+        OWNED(check_free) uint8_t *bytes = read_picture(names[k], &size_bytes);
         for (size_t cut = 0; cut < size_bytes - 2; cut++) { // libjpeg does not miss the end mark
-            ewa_image image;
-            log.text[0] = 0;
+            OWNED(ewa_image_free) ewa_image image;
+            log->text[0] = 0;
             const ewa_status status = decode(context, bytes, cut, &image);
             assert_true(status == EWA_OK || status == EWA_ERROR_FORMAT);
-            assert_non_null(strstr(log.text, "scan.jpg"));
+            assert_non_null(strstr(log->text, "scan.jpg"));
             assert_true((status == EWA_OK) == (image.pixels != NULL));
-            assert_true(status != EWA_OK || strstr(log.text, "parts are missing or broken"));
+            assert_true(status != EWA_OK || strstr(log->text, "parts are missing or broken"));
             whole += status == EWA_OK;
-            ewa_image_free(&image);
         }
         assert_true(whole > 0 && whole < size_bytes / 2);
-        free(bytes);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_broken_bytes, 1) {
@@ -84,7 +75,7 @@ TEST_ON(test_broken_bytes, 1) {
     check_random random = {3};
     for (int k = 0; k < 4; k++) {
         size_t size_bytes;
-        uint8_t *bytes = read_picture(names[k], &size_bytes);
+        OWNED(check_free) uint8_t *bytes = read_picture(names[k], &size_bytes);
         for (int round = 0; round < 500; round++) {
             const size_t at = (size_t)check_uniform(&random, 0, (double)size_bytes);
             const uint8_t before = bytes[at];
@@ -95,18 +86,15 @@ TEST_ON(test_broken_bytes, 1) {
             ewa_image_free(&image);
             bytes[at] = before;
         }
-        free(bytes);
     }
 }
 
-TEST(test_refused) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_refused, 1) {
     ewa_image image;
     size_t size_bytes;
-    uint8_t *bytes = read_picture("cmyk.jpg", &size_bytes);
+    OWNED(check_free) uint8_t *bytes = read_picture("cmyk.jpg", &size_bytes);
     assert_int_equal(decode(context, bytes, size_bytes, &image), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "scan.jpg: JPEG of 4 components"));
+    assert_non_null(strstr(log->text, "scan.jpg: JPEG of 4 components"));
     free(bytes);
     // The last scan of a progressive file, over and over.
     enum { REPEATS = 400 };
@@ -116,23 +104,20 @@ TEST(test_refused) {
     assert_true(scan > 0);
     scan--;
     const size_t scan_bytes = size_bytes - 2 - scan; // but for the end mark
-    uint8_t *many = malloc(size_bytes + REPEATS * scan_bytes);
+    OWNED(check_free) uint8_t *many = malloc(size_bytes + REPEATS * scan_bytes);
     memcpy(many, bytes, size_bytes - 2);
     for (size_t i = 0; i < REPEATS; i++)
         memcpy(many + size_bytes - 2 + i * scan_bytes, bytes + scan, scan_bytes);
     memcpy(many + size_bytes - 2 + REPEATS * scan_bytes, bytes + size_bytes - 2, 2);
     assert_int_equal(decode(context, many, size_bytes + REPEATS * scan_bytes, &image), EWA_ERROR_FORMAT);
-    assert_non_null(strstr(log.text, "more than 200 scans"));
+    assert_non_null(strstr(log->text, "more than 200 scans"));
     assert_null(image.pixels);
-    free(many);
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
 /// Sizes are checked before pixels are allocated, whatever the head says.
 TEST(test_limits) {
     size_t size_bytes;
-    uint8_t *bytes = read_picture("colour.jpg", &size_bytes);
+    OWNED(check_free) uint8_t *bytes = read_picture("colour.jpg", &size_bytes);
     size_t head = 0; // the frame's: ff c0, length, bits, height, width
     while (bytes[head] != 0xff || bytes[head + 1] != 0xc0) head++;
     for (int k = 0; k < 3; k++) {
@@ -143,24 +128,20 @@ TEST(test_limits) {
             options.limits.max_memory_bytes = (uint64_t)1 << 30;
             for (size_t i = 5; i < 9; i++) bytes[head + i] = i % 2 ? 0xff : 0xdc;
         }
-        ewa_context *context = NULL;
+        OWNED(ewa_context_destroy) ewa_context *context = NULL;
         assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
         ewa_image image;
         assert_int_equal(decode(context, bytes, size_bytes, &image), EWA_ERROR_LIMIT);
         assert_null(image.pixels);
-        ewa_context_destroy(&context);
     }
-    free(bytes);
 }
 
 static ewa_status load_colour(ewa_context *context, void *user) {
     (void)user;
     size_t size_bytes;
-    uint8_t *bytes = read_picture("colour.jpg", &size_bytes);
-    ewa_image image;
+    OWNED(check_free) uint8_t *bytes = read_picture("colour.jpg", &size_bytes);
+    OWNED(ewa_image_free) ewa_image image;
     const ewa_status status = decode(context, bytes, size_bytes, &image);
-    ewa_image_free(&image);
-    free(bytes);
     return status;
 }
 
@@ -195,15 +176,13 @@ static void compare(ewa_context *context, const char *path, const uint8_t *codes
 }
 
 /// Grey, RGB and opaque RGBA come back, whatever the suffix's case, from 8 bits and from floats; nothing is said.
-TEST(test_round_trip) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+TEST_LOGGED(test_round_trip, 2) {
     static const uint32_t sizes[][2] = {{1, 1}, {7, 300}, {160, 90}}, counts[] = {1, 3, 4};
     static const char *const names[] = {"trip.jpg", "trip.jpeg", "trip.JPG"};
     for (int s = 0; s < 3; s++)
         for (int n = 0; n < 3; n++) {
             const uint32_t width = sizes[s][0], height = sizes[s][1], channels = counts[n];
-            uint8_t *codes = malloc((size_t)width * height * channels);
+            OWNED(check_free) uint8_t *codes = malloc((size_t)width * height * channels);
             char path[512];
             double mean;
             int largest;
@@ -214,29 +193,22 @@ TEST(test_round_trip) {
             compare(context, path, codes, channels, &mean, &largest);
             if (mean > 1.2 || largest > 14)
                 fail_msg("%ux%u of %u: %g, at most %d off", width, height, channels, mean, largest);
-            ewa_image image;
+            OWNED(ewa_image_free) ewa_image image;
             assert_int_equal(ewa_image_create(context, width, height, channels, &image), EWA_OK);
             for (size_t i = 0; i < (size_t)width * height * channels; i++)
                 image.pixels[i] = channels == 4 && i % 4 == 3 ? 1 : ewa_srgb_decoded[codes[i]];
             size_t first_bytes, second_bytes;
-            uint8_t *first = scratch_read(path, &first_bytes);
+            OWNED(check_free) uint8_t *first = scratch_read(path, &first_bytes);
             assert_int_equal(ewa_image_save(&image, path, NULL), EWA_OK);
-            uint8_t *second = scratch_read(path, &second_bytes);
+            OWNED(check_free) uint8_t *second = scratch_read(path, &second_bytes);
             assert_int_equal(first_bytes, second_bytes);
             assert_memory_equal(first, second, first_bytes);
-            free(first);
-            free(second);
-            ewa_image_free(&image);
-            free(codes);
         }
-    assert_int_equal(log.count, 0);
-    ewa_context_destroy(&context);
+    assert_int_equal(log->count, 0);
 }
 
 /// What is transparent is over white, by light: half of black over white is 188, and a warning says so.
-TEST(test_over_white) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_over_white, 1) {
     uint8_t codes[16 * 16 * 4] = {0}, wanted[16 * 16 * 3];
     char path[512];
     double mean;
@@ -245,20 +217,17 @@ TEST(test_over_white) {
         for (int i = 0; i < 256; i++) codes[4 * i + 3] = (uint8_t)alpha;
         const float light = 1 - (float)alpha / 255;
         memset(wanted, ewa_srgb8_from_linear(light), sizeof wanted);
-        log.count = 0;
+        log->count = 0;
         assert_int_equal(ewa_jpeg_save(context, scratch_path("white.jpg", path), 16, 16, 4, codes, 64),
                          EWA_OK);
-        assert_int_equal(log.count, alpha < 255);
-        if (log.count) assert_non_null(strstr(log.text, "no transparency"));
+        assert_int_equal(log->count, alpha < 255);
+        if (log->count) assert_non_null(strstr(log->text, "no transparency"));
         compare(context, path, wanted, 3, &mean, &largest);
         assert_true(largest <= 2);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_not_written) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_not_written, 1) {
     char path[512];
     remove(scratch_path("never.jpg", path));
     const uint8_t codes[12] = {0};
@@ -270,16 +239,14 @@ TEST(test_not_written) {
     assert_int_equal(ewa_pixels_save(context, "picture.ppm", 2, 2, 3, codes, 6), EWA_ERROR_UNSUPPORTED);
     assert_null(fopen(path, "rb"));
     assert_int_equal(ewa_jpeg_save(context, "/nowhere/x.jpg", 2, 2, 3, codes, 6), EWA_ERROR_IO);
-    assert_non_null(strstr(log.text, "/nowhere/x.jpg"));
+    assert_non_null(strstr(log->text, "/nowhere/x.jpg"));
     assert_int_equal(ewa_jpeg_save(context, "/dev/full", 2, 2, 3, codes, 6), EWA_ERROR_IO);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status save_colour(ewa_context *context, void *user) {
-    uint8_t *codes = malloc(300 * 200 * 3);
+    OWNED(check_free) uint8_t *codes = malloc(300 * 200 * 3);
     fill_codes(codes, 300, 200, 3);
     const ewa_status status = ewa_jpeg_save(context, user, 300, 200, 3, codes, 900);
-    free(codes);
     return status;
 }
 

@@ -10,7 +10,7 @@ CASE(test_fields_of_all_formats) {
     enum { COUNT = 20000 }; // more than a task takes
     for (uint8_t format = 0; format < LAS_FORMATS; format++) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
-        ewa_cloud *cloud = las_load(context, &s);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
         assert_int_equal(ewa_cloud_point_count(cloud), COUNT);
         for (uint64_t i = 0; i < COUNT; i++) {
             for (uint32_t c = 0; c < 3; c++) {
@@ -47,7 +47,6 @@ CASE(test_fields_of_all_formats) {
             assert_memory_equal((const float *)ewa_cloud_find(cloud, "wave_z_t")->data + 7, &z, sizeof z);
         }
         assert_int_equal(messages.count, 0);
-        ewa_cloud_destroy(&cloud);
         free(s.bytes);
     }
 }
@@ -89,7 +88,7 @@ CASE(test_extra_bytes) {
     las_put(record + s.record_bytes + scaled_at, 6, 2);
     las_put(record + gap_at, 0x40200000, 4); // 2.5f
     las_put(record + s.record_bytes + gap_at, 0x40400000, 4);
-    ewa_cloud *cloud = las_load(context, &s);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
     uint32_t at = 0;
     for (uint8_t type = 1; type <= 10; type++) {
         const ewa_attribute *attribute = ewa_cloud_find(cloud, names[type]);
@@ -120,7 +119,6 @@ CASE(test_extra_bytes) {
     assert_non_null(ewa_cloud_find(cloud, "u16"));
     assert_null(ewa_cloud_find(cloud, "i16"));
     assert_non_null(strstr(messages.text, "field 4 of 14"));
-    ewa_cloud_destroy(&cloud);
     free(s.bytes);
 }
 
@@ -133,12 +131,11 @@ CASE(test_names_of_parts) {
     las_sample s = las_make(0, 4, 16, 1, vlr, las_vlr(vlr, "LASF_Spec", 4, fields, sizeof fields), 1);
     static const uint32_t bits[4] = {0x3f800000, 0x40000000, 0x40400000, 0x3e800000};
     for (int i = 0; i < 4; i++) las_put(s.bytes + s.points_at + 20 + 4 * i, bits[i], 4);
-    ewa_cloud *cloud = las_load(context, &s);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
     assert_true(las_value(cloud, EWA_NORMAL, 0, 0) == 2 && las_value(cloud, EWA_NORMAL, 0, 1) == 1 &&
                 las_value(cloud, EWA_NORMAL, 0, 2) == 3);
     assert_true(las_value(cloud, "intensity", 0, 0) == 0.25);
     assert_null(ewa_cloud_find(cloud, "nx"));
-    ewa_cloud_destroy(&cloud);
     free(s.bytes);
 }
 
@@ -153,7 +150,7 @@ CASE(test_colors_of_eight_bits) {
                 las_put(to, kind == 0 ? value : kind == 1 ? value * 257 : kind == 2 ? 0 : value, 2);
                 if (kind == 3 && i == COUNT - 1) las_put(to, 256, 2);
             }
-        ewa_cloud *cloud = las_load(context, &s);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
         const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
         if (kind == 2) { // no colour is set
             assert_null(color);
@@ -162,7 +159,6 @@ CASE(test_colors_of_eight_bits) {
             for (uint64_t i = 0; i + 1 < COUNT; i++)
                 assert_true(las_value(cloud, EWA_COLOR, i, 1) == (double)(i * 7 % 256));
         }
-        ewa_cloud_destroy(&cloud);
     }
     free(s.bytes);
 }
@@ -224,7 +220,7 @@ CASE(test_headers_that_lie) {
     las_sample s = las_make(3, 4, 0, 10, NULL, 0, 0);
     // The count of 64 bits is 0: that of 32 bits counts.
     las_put(s.bytes + 247, 0, 8);
-    ewa_cloud *cloud = las_load(context, &s);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
     assert_int_equal(ewa_cloud_point_count(cloud), 10);
     ewa_cloud_destroy(&cloud);
     // Both are 0 though records are there.
@@ -259,7 +255,6 @@ CASE(test_headers_that_lie) {
     las_put(s.bytes + 100, 0xffffffff, 4);
     cloud = las_load(context, &s);
     assert_non_null(strstr(messages.text, "variable length records end before the last"));
-    ewa_cloud_destroy(&cloud);
     free(s.bytes);
 }
 

@@ -27,14 +27,13 @@ static ewa_status load(const uint8_t *bytes, size_t size_bytes, uint64_t *point_
     uint8_t *copy = malloc(size_bytes + 1);
     assert_non_null(copy);
     memcpy(copy + 1, bytes, size_bytes);
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     messages = (check_log){0};
     const ewa_status status = ewa_cloud_load_memory(context, copy + 1, size_bytes, "bad.laz", &cloud);
     free(copy);
     assert_true((status == EWA_OK) == (cloud != NULL));
     assert_true(status == EWA_OK || messages.count > 0);
     if (point_count) *point_count = cloud ? ewa_cloud_point_count(cloud) : 0;
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 
@@ -101,7 +100,7 @@ CASE(test_damaged_chunk) {
     options.keep_going = true;
     static const uint64_t sizes[] = {1000, 64, 250};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-        ewa_cloud_reader *reader = NULL;
+        OWNED(ewa_cloud_reader_close) ewa_cloud_reader *reader = NULL;
         assert_int_equal(ewa_cloud_reader_open(context, path, &options, &reader), EWA_OK);
         ewa_cloud *piece = NULL;
         uint64_t at = 0;
@@ -115,7 +114,6 @@ CASE(test_damaged_chunk) {
         }
         assert_int_equal(at, 900);
         assert_int_equal(ewa_cloud_reader_lost_count(reader), 100);
-        ewa_cloud_reader_close(&reader);
     }
     remove(path);
     free(bytes);
@@ -185,7 +183,7 @@ CASE(test_lies_about_chunks) {
 CASE(test_pipes) {
     // What cannot be patched is written at once, or not at all.
     las_sample s = las_make(1, 2, 0, 500, NULL, 0, 0);
-    ewa_cloud *cloud = las_load(context, &s);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
     char path[512], got[512];
     for (int compressed = 0; compressed < 2; compressed++) {
         scratch_path(compressed ? "pipe.laz" : "pipe.las", path);
@@ -205,7 +203,6 @@ CASE(test_pipes) {
         remove(path);
         remove(got);
     }
-    ewa_cloud_destroy(&cloud);
     free(s.bytes);
 }
 

@@ -22,8 +22,8 @@ static void keep(void *user, ewa_severity severity, const char *text) {
 /// Writes points as LAS or LAZ, by the suffix, and returns its bytes; the caller frees.
 static uint8_t *make(const char *name, size_t *size_bytes) {
     char path[512];
-    ewa_context *context = check_context(2, NULL);
-    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, POINTS);
     void *position = NULL, *number = NULL;
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "return_number", EWA_U8, 1, &number), EWA_OK);
@@ -33,8 +33,6 @@ static uint8_t *make(const char *name, size_t *size_bytes) {
         ((uint8_t *)number)[i] = (uint8_t)(1 + i % 3);
     }
     assert_int_equal(ewa_cloud_save(cloud, scratch_path(name, path), NULL), EWA_OK);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
     return scratch_read(path, size_bytes);
 }
 
@@ -46,19 +44,17 @@ static said load(const uint8_t *bytes, size_t size_bytes, uint32_t threads) {
     options.message = keep;
     options.message_user = &s;
     options.message_level = EWA_SEVERITY_NOTE;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_load_memory(context, bytes, size_bytes, "tile", &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(cloud), POINTS);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
     return s;
 }
 
 static void judge(const char *name, uint32_t threads) {
     size_t size_bytes = 0;
-    uint8_t *bytes = make(name, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = make(name, &size_bytes);
     assert_true(bytes[25] < 4); // where the numbers of returns are
     said s = load(bytes, size_bytes, threads);
     assert_int_equal(s.warnings + s.notes, 0);
@@ -92,7 +88,6 @@ static void judge(const char *name, uint32_t threads) {
     memset(bytes + HIGH_X_AT, 0, 6 * 8);
     s = load(bytes, size_bytes, threads);
     assert_int_equal(s.warnings + s.notes, 0);
-    free(bytes);
 }
 
 TEST(las_is_checked) {

@@ -78,7 +78,7 @@ CASE(test_counts_bounds_and_formats) {
         char relative[256];
         snprintf(relative, sizeof relative, "clouds/%s", files[k].path);
         messages = (check_log){0};
-        ewa_cloud *cloud = load(relative);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(relative);
         if (!cloud) skip();
         if (files[k].said[0] ? !strstr(messages.text, files[k].said) : messages.count)
             fail_msg("%s: %s", relative, messages.text);
@@ -97,7 +97,6 @@ CASE(test_counts_bounds_and_formats) {
         const int bits = color ? 8 * (int)ewa_type_bytes(color->type) : 0;
         if (files[k].color >= 0 && bits != files[k].color) fail_msg("%s: colours of %d bits", relative, bits);
         assert_non_null(ewa_cloud_find(cloud, "classification"));
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -160,13 +159,12 @@ CASE(test_round_trips) {
 
 static void refuse_or_read(void *user, const char *path) {
     visit *v = user;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     messages = (check_log){0};
     if (ewa_cloud_load(context, path, &cloud) != EWA_OK) {
         assert_true(strncmp(messages.text, path, strlen(path)) == 0);
         v->refused++;
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_hostile) {

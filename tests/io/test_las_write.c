@@ -25,13 +25,13 @@ CASE(test_round_trips) {
     enum { COUNT = 12345 };
     for (uint8_t format = 0; format < LAS_FORMATS; format++) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
-        ewa_cloud *cloud = las_load(context, &s);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
         for (int compressed = 0; compressed < 2; compressed++) {
             WITH_DEFAULTS(ewa_cloud_save_options, options);
             options.chunk_points = 1000;
-            uint8_t *bytes = NULL;
+            OWNED(check_free) uint8_t *bytes = NULL;
             size_t size_bytes = 0;
-            ewa_cloud *back =
+            OWNED(ewa_cloud_destroy) ewa_cloud *back =
                 save_and_load(cloud, compressed ? "trip.laz" : "trip.las", &options, &bytes, &size_bytes);
             las_compare(cloud, back);
             const bool same_format = format < 4 || (format >= 6 && format < 9);
@@ -42,10 +42,7 @@ CASE(test_round_trips) {
                 assert_memory_equal(bytes + at, s.bytes + s.points_at, size_bytes - at);
             }
             assert_memory_equal(bytes + 131, s.bytes + 131, 48); // scale and offset
-            free(bytes);
-            ewa_cloud_destroy(&back);
         }
-        ewa_cloud_destroy(&cloud);
         free(s.bytes);
     }
     assert_int_equal(messages.count, 0);
@@ -139,7 +136,7 @@ CASE(test_attributes_of_every_type) {
                       {"pair", EWA_I16, 2},           {"triple", EWA_U32, 3},     {"small", EWA_I8, 1},
                       {"gps_time", EWA_F32, 1},       {"nir", EWA_U16, 1}};
     double *positions;
-    ewa_cloud *cloud = make_cloud(COUNT, &positions);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(COUNT, &positions);
     check_random random = {5};
     for (int i = 0; i < 3 * COUNT; i++) positions[i] = check_uniform(&random, -3, 3);
     for (size_t k = 0; k < sizeof attributes / sizeof *attributes; k++) {
@@ -151,21 +148,20 @@ CASE(test_attributes_of_every_type) {
     for (int i = 0; i < 3 * COUNT; i++) positions[i] = nearbyint(positions[i] * 1e6) * 1e-6;
     ewa_cloud_set_grid(cloud, &grid);
     for (int compressed = 0; compressed < 2; compressed++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *back = save_and_load(cloud, compressed ? "types.laz" : "types.las", NULL, NULL, NULL);
         las_compare(cloud, back);
-        ewa_cloud_destroy(&back);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_colors) {
     double *positions;
-    ewa_cloud *cloud = make_cloud(256, &positions);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(256, &positions);
     uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 4);
     for (int i = 0; i < 1024; i++) color[i] = (uint8_t)(i / 4 + i);
     uint8_t *bytes;
     size_t size_bytes;
-    ewa_cloud *back = save_and_load(cloud, "color.las", NULL, &bytes, &size_bytes);
+    OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "color.las", NULL, &bytes, &size_bytes);
     const uint8_t *record = bytes + las_get(bytes + 96, 4) + 28 * 5; // with an alpha
     assert_int_equal(las_get(record + 20, 2), 257 * color[4 * 5]);
     las_compare(cloud, back); // eight bits again
@@ -181,8 +177,6 @@ CASE(test_colors) {
         const double srgb = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
         assert_float_equal(((const uint16_t *)read->data)[i], 65535 * srgb, 0.51);
     }
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_grids) {
@@ -197,24 +191,21 @@ CASE(test_grids) {
                  {7.5, 9.25, 1e-8, 8, "EPSG:4326"}}; // degrees
     for (size_t k = 0; k < sizeof boxes / sizeof *boxes; k++) {
         double *positions;
-        ewa_cloud *cloud = make_cloud(2, &positions);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(2, &positions);
         for (int i = 0; i < 6; i++) positions[i] = i < 3 ? boxes[k].low : boxes[k].high;
         if (boxes[k].crs) ewa_cloud_set_note(cloud, "crs", boxes[k].crs, strlen(boxes[k].crs));
-        uint8_t *bytes;
+        OWNED(check_free) uint8_t *bytes;
         size_t size_bytes;
-        ewa_cloud *back = save_and_load(cloud, "grid.las", NULL, &bytes, &size_bytes);
+        OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "grid.las", NULL, &bytes, &size_bytes);
         if (las_get_f64(bytes + 131) != boxes[k].step)
             fail_msg("box %d: step %g", (int)k, las_get_f64(bytes + 131));
         assert_true(las_get_f64(bytes + 155) == boxes[k].offset);
         for (int i = 0; i < 2; i++)
             assert_float_equal(las_world(back, (uint64_t)i, 0), positions[3 * i], boxes[k].step / 1.9);
         if (boxes[k].crs) assert_string_equal(ewa_cloud_note(back, "crs", NULL), boxes[k].crs);
-        ewa_cloud_destroy(&back);
-        ewa_cloud_destroy(&cloud);
-        free(bytes);
     }
     double *positions;
-    ewa_cloud *cloud = make_cloud(2, &positions);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(2, &positions);
     positions[3] = 1e8;
     char path[512];
     scratch_path("wide.las", path);
@@ -229,24 +220,20 @@ CASE(test_grids) {
     ewa_cloud_set_grid(cloud, &grid);
     positions[0] = 4200000.123456;
     positions[3] = 4200001.654321;
-    ewa_cloud *back = save_and_load(cloud, "grid.las", NULL, NULL, NULL);
+    OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "grid.las", NULL, NULL, NULL);
     assert_true(las_world(back, 0, 0) == 4200000.123456 && las_world(back, 1, 0) == 4200001.654321);
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_points_without_a_place) {
     double *positions;
-    ewa_cloud *cloud = make_cloud(5, &positions);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(5, &positions);
     for (int i = 0; i < 15; i++) positions[i] = i;
     positions[4] = NAN;
     positions[11] = INFINITY;
-    ewa_cloud *back = save_and_load(cloud, "nan.las", NULL, NULL, NULL);
+    OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "nan.las", NULL, NULL, NULL);
     assert_int_equal(ewa_cloud_point_count(back), 3);
     assert_true(las_world(back, 1, 0) == 6 && las_world(back, 2, 2) == 14);
     assert_non_null(strstr(messages.text, "2 points without finite coordinates"));
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_format_that_holds_the_numbers) {
@@ -260,20 +247,17 @@ CASE(test_format_that_holds_the_numbers) {
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         double *positions;
         void *data;
-        ewa_cloud *cloud = make_cloud(1, &positions);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(1, &positions);
         const bool wide = strcmp(cases[k].name, "point_source_id") == 0;
         assert_int_equal(ewa_cloud_add(cloud, cases[k].name, wide ? EWA_U16 : EWA_U8, 1, &data), EWA_OK);
         las_put(data, (uint64_t)cases[k].value, wide ? 2 : 1);
-        uint8_t *bytes;
+        OWNED(check_free) uint8_t *bytes;
         size_t size_bytes;
-        ewa_cloud *back = save_and_load(cloud, "format.las", NULL, &bytes, &size_bytes);
+        OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "format.las", NULL, &bytes, &size_bytes);
         if (bytes[104] != cases[k].format) fail_msg("%s %g: %d", cases[k].name, cases[k].value, bytes[104]);
         assert_true(las_value(back, cases[k].name, 0, 0) == cases[k].value);
         // Points of which nothing is known are the only returns of their pulses.
         if (k > 2) assert_true(las_value(back, "number_of_returns", 0, 0) == 1);
-        ewa_cloud_destroy(&back);
-        ewa_cloud_destroy(&cloud);
-        free(bytes);
     }
 }
 

@@ -87,6 +87,7 @@ TEST(test_facts) {
     for (size_t i = 0; i < sizeof laz_fact_chunks / sizeof laz_fact_chunks[0]; i++) {
         const uint8_t format = laz_fact_chunks[i].point_format;
         const uint32_t record_bytes = laz_fact_chunks[i].record_bytes;
+        OWNED(chunk_free)
         chunk c = chunk_make(plan_of(format, record_bytes - CORE_BYTES[format]), LAZ_SAMPLE_CONSTANT, format,
                              LAZ_FACT_RECORDS);
         for (uint32_t k = 0; k < LAZ_FACT_RECORDS; k++)
@@ -98,7 +99,6 @@ TEST(test_facts) {
         assert_int_equal(c.size_bytes, laz_fact_chunks[i].size_bytes);
         assert_memory_equal(c.bytes.data, laz_fact_chunks[i].bytes, c.size_bytes);
         check_back(&c);
-        chunk_free(&c);
     }
 }
 
@@ -112,32 +112,29 @@ TEST(test_round_trips) {
                     for (uint32_t k = 0; plan.layered && k < plan.item_count; k++)
                         plan.items[k].version = version;
                     assert_null(ewa_laz_plan_check(&plan));
-                    chunk c = chunk_make(plan, (laz_sample_kind)kind, format, COUNTS[i]);
+                    OWNED(chunk_free) chunk c = chunk_make(plan, (laz_sample_kind)kind, format, COUNTS[i]);
                     check_back(&c);
                     check_back(&c); // the memory of the first one is as good as new
-                    chunk_free(&c);
                 }
 }
 
 TEST(test_no_points) {
-    chunk c = chunk_make(plan_of(3, 0), LAZ_SAMPLE_SMOOTH, 3, 0);
+    OWNED(chunk_free) chunk c = chunk_make(plan_of(3, 0), LAZ_SAMPLE_SMOOTH, 3, 0);
     assert_int_equal(c.size_bytes, 0);
     assert_null(decode(&c, NULL, 0, 0).fault);
     assert_non_null(decode(&c, NULL, 0, 1).fault);
-    chunk_free(&c);
 }
 
 TEST(test_constant_is_small) {
     for (uint8_t format = 0; format < 11; format++) {
-        chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_CONSTANT, format, 5000);
+        OWNED(chunk_free) chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_CONSTANT, format, 5000);
         if (c.size_bytes > 1000) fail_msg("format %d: %u bytes", format, (unsigned)c.size_bytes);
-        chunk_free(&c);
     }
 }
 
 TEST(test_truncations) {
     for (uint8_t format = 0; format < 11; format++) {
-        chunk c = chunk_make(plan_of(format, 2), LAZ_SAMPLE_JUMPS, format, 20);
+        OWNED(chunk_free) chunk c = chunk_make(plan_of(format, 2), LAZ_SAMPLE_JUMPS, format, 20);
         const uint32_t record_bytes = c.plan.record_bytes;
         for (size_t size = 0; size < c.size_bytes; size++) {
             const ewa_laz_result result = decode(&c, c.bytes.data, size, c.point_count);
@@ -147,7 +144,6 @@ TEST(test_truncations) {
         }
         const ewa_laz_result more = decode(&c, c.bytes.data, c.size_bytes, c.point_count - 1);
         assert_non_null(more.fault); // the chunk holds another point
-        chunk_free(&c);
     }
 }
 
@@ -155,7 +151,7 @@ TEST(test_changes) {
     static const uint8_t CHANGES[] = {1, 0x80, 0xFF};
     for (uint8_t format = 0; format < 11; format++) {
         uint64_t told = 0, tried = 0;
-        chunk c = chunk_make(plan_of(format, 1), LAZ_SAMPLE_JUMPS, format, 12);
+        OWNED(chunk_free) chunk c = chunk_make(plan_of(format, 1), LAZ_SAMPLE_JUMPS, format, 12);
         uint8_t *bytes = c.bytes.data;
         for (size_t i = c.plan.record_bytes; i < c.size_bytes; i++)
             for (int k = 0; k < 3; k++) {
@@ -168,12 +164,11 @@ TEST(test_changes) {
             fail_msg("format %d: only %u of %u changes were told of", format, (unsigned)told,
                      (unsigned)tried);
         check_back(&c);
-        chunk_free(&c);
     }
 }
 
 TEST(test_layers) {
-    chunk c = chunk_make(plan_of(7, 1), LAZ_SAMPLE_SMOOTH, 7, 50);
+    OWNED(chunk_free) chunk c = chunk_make(plan_of(7, 1), LAZ_SAMPLE_SMOOTH, 7, 50);
     uint8_t *bytes = c.bytes.data, *count = bytes + c.plan.record_bytes, *sizes = count + 4;
     laz_sample_put(count, 51, 4);
     assert_non_null(decode(&c, bytes, c.size_bytes, 50).fault);
@@ -195,7 +190,6 @@ TEST(test_layers) {
     }
     memset(sizes, 0, 11 * 4);
     assert_int_equal(decode(&c, bytes, c.plan.record_bytes + 4 + 11 * 4, 50).point_count, 1);
-    chunk_free(&c);
 }
 
 TEST(test_plans) {
@@ -276,12 +270,11 @@ TEST(test_memory) {
     ewa_laz_memory *memory = NULL;
     for (int turn = 0; turn < 4; turn++) {
         const uint8_t format = turn % 2 ? 3 : 7;
-        chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_SMOOTH, format, 100);
+        OWNED(chunk_free) chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_SMOOTH, format, 100);
         c.decoder = memory;
         check_back(&c);
         memory = c.decoder;
         c.decoder = NULL;
-        chunk_free(&c);
     }
     ewa_laz_memory_free(context, &memory);
     ewa_laz_memory_free(context, &memory);

@@ -123,7 +123,7 @@ static uint32_t number_at(const uint8_t *bytes) {
 
 static void try_cuts(cut_kind kind, size_t step) {
     check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &log);
     char path[512], cut_path[512];
     ewa_cloud *made = make_cloud(context, kind), *whole = NULL;
     WITH_DEFAULTS(ewa_cloud_save_options, options);
@@ -142,7 +142,7 @@ static void try_cuts(cut_kind kind, size_t step) {
     for (size_t length = 227; length < size_bytes; length += step) {
         uint64_t lost_count;
         log.count = 0;
-        ewa_cloud *part = load_cut(context, bytes, length, cut_path, &lost_count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *part = load_cut(context, bytes, length, cut_path, &lost_count);
         assert_true(log.count > 0 || (part && ewa_cloud_point_count(part) == POINTS));
         if (!part) continue;
         const uint64_t count = ewa_cloud_point_count(part), known = expect_begin(part, whole, kind);
@@ -153,7 +153,6 @@ static void try_cuts(cut_kind kind, size_t step) {
         grown += count != last || known != last_known;
         last = count;
         last_known = known;
-        ewa_cloud_destroy(&part);
     }
     print_message("format %d: %llu counts, %llu points at last, %zu bytes, grown %llu times of %zu\n", FORMATS[kind],
                   (unsigned long long)counts, (unsigned long long)last, size_bytes, (unsigned long long)grown,
@@ -170,7 +169,6 @@ static void try_cuts(cut_kind kind, size_t step) {
     ewa_cloud_destroy(&part);
     free(bytes);
     ewa_cloud_destroy(&whole);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_flat) { try_cuts(FLAT, 61); }
@@ -185,7 +183,7 @@ TEST(test_layered_infrared) { try_cuts(LAYERED_INFRARED, 251); }
 TEST(test_octree) {
     enum { COUNT = 3000 };
     check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &log);
     char path[512], cut_path[512];
     ewa_cloud *cloud = copc_cloud(context, COUNT, true), *whole = NULL;
     copc_nodes nodes = copc_share(cloud, 3);
@@ -202,7 +200,7 @@ TEST(test_octree) {
     uint64_t last = 0;
     for (size_t length = 700; length < size_bytes; length += 611) {
         uint64_t lost_count;
-        ewa_cloud *part = load_cut(context, bytes, length, cut_path, &lost_count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *part = load_cut(context, bytes, length, cut_path, &lost_count);
         if (!part) continue;
         const uint64_t count = ewa_cloud_point_count(part);
         assert_true(count >= last);
@@ -210,26 +208,21 @@ TEST(test_octree) {
         last = count;
         read_numbers(part, EWA_POSITION, count, a);
         assert_memory_equal(a, b, 3 * count * sizeof *a);
-        ewa_cloud_destroy(&part);
     }
     assert_int_equal(last, COUNT);
     free(bytes);
     ewa_cloud_destroy(&whole);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status load_failing(ewa_context *context, void *user) {
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(user, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(user, &size_bytes);
     WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
-    ewa_cloud_reader *reader = NULL;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_reader_close) ewa_cloud_reader *reader = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_status status = ewa_cloud_reader_open(context, user, &options, &reader);
     if (status == EWA_OK) status = ewa_cloud_reader_next(reader, 2 * POINTS, &cloud);
-    ewa_cloud_reader_close(&reader);
-    ewa_cloud_destroy(&cloud);
-    free(bytes);
     return status;
 }
 

@@ -39,13 +39,12 @@ TEST(test_damaged) {
     check_random random = {3};
     for (int i = 0; i < 4000; i++) {
         const size_t cut = i < BLOCK_BYTES ? (size_t)i : BLOCK_BYTES;
-        uint8_t *from = malloc(cut + (cut == 0)), *to = malloc(TEXT_BYTES);
+        OWNED(check_free) uint8_t *from = malloc(cut + (cut == 0)), *to = malloc(TEXT_BYTES);
         assert_true(from && to);
         memcpy(from, block, cut);
         if (i >= BLOCK_BYTES) from[check_random_u64(&random) % BLOCK_BYTES] = (uint8_t)check_random_u64(&random);
         const bool good = ewa_lz4_unpack(from, cut, to, TEXT_BYTES);
         assert_false(good && cut < BLOCK_BYTES);
-        free(from), free(to);
     }
 }
 

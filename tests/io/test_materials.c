@@ -58,7 +58,7 @@ TEST(test_broken_tables) {
         {"[{\"ambient\": 1e999}]", "ambient of material 0"},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_material materials[EWA_MAX_MATERIALS];
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         uint32_t count = 9;
@@ -66,7 +66,6 @@ TEST(test_broken_tables) {
         if (!strstr(log.text, tables[i].words)) fail_msg("'%s' does not say '%s'", log.text, tables[i].words);
         assert_int_equal(count, 0);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_as_many_as_indices, 1) {

@@ -168,22 +168,20 @@ static ewa_status try_bytes(ewa_context *context, mesh_messages *messages, const
 
 TEST(test_samples_load) {
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
     for (int i = 0; i < SAMPLES; i++) {
         const ewa_status status =
             try_bytes(context, &messages, samples[i].name, samples[i].bytes, samples[i].size_bytes);
         if (status != EWA_OK) fail_msg("%s: %s", samples[i].name, messages.text);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_truncation) {
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
     for (int i = 0; i < SAMPLES; i++)
         for (size_t size = 0; size < samples[i].size_bytes; size++)
             try_bytes(context, &messages, samples[i].name, samples[i].bytes, size);
-    ewa_context_destroy(&context);
 }
 
 /// Seeded changes of bytes: flipped bits, numbers of extreme size, pieces doubled, moved and lost.
@@ -227,7 +225,7 @@ static size_t change(check_random *random, const sample *from, uint8_t *to, size
 
 TEST(test_changed_bytes) {
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
     const char *wanted = getenv("EWA_MUTATIONS");
     const long count = wanted ? atol(wanted) : 2000; // of each format
     uint64_t loaded = 0;
@@ -242,17 +240,15 @@ TEST(test_changed_bytes) {
     // Some are harmless, some are not.
     assert_true(loaded > (uint64_t)count / 2 && loaded < (uint64_t)(SAMPLES * count) * 9 / 10);
     print_message("%llu of %ld changed files are meshes\n", (unsigned long long)loaded, SAMPLES * count);
-    ewa_context_destroy(&context);
 }
 
 /// A sample as a file with a library and a picture beside it, so that these are read too.
 static ewa_status load_file(ewa_context *context, void *user) {
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     const ewa_status status =
         ewa_model_load(context, user, EWA_MODEL_MESH | EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model);
     bool closed;
     const ewa_status closing = status == EWA_OK ? ewa_mesh_is_closed(&model.mesh, &closed) : status;
-    ewa_model_free(&model);
     return closing;
 }
 
@@ -288,7 +284,7 @@ TEST(test_limits) {
                 options.limits.max_memory_bytes = 96;
             else
                 options.limits.max_points = 2;
-            ewa_context *context = NULL;
+            OWNED(ewa_context_destroy) ewa_context *context = NULL;
             assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
             const ewa_status status =
                 try_bytes(context, &messages, samples[i].name, samples[i].bytes, samples[i].size_bytes);
@@ -296,7 +292,6 @@ TEST(test_limits) {
             if (status != EWA_ERROR_LIMIT && !(kind && status == EWA_ERROR_MEMORY))
                 fail_msg("%s: %d %s", samples[i].name, status, messages.text);
             if (kind) mesh_says(&messages, " of max_memory_bytes 96 are left");
-            ewa_context_destroy(&context);
         }
     // Counts that lie need no memory: of faces, of corners, of triangles.
     static const char *const lies[] = {
@@ -324,8 +319,8 @@ TEST(test_limits) {
 TEST(test_time) {
     enum { CORNERS = 3000, FACES = 40 };
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
-    char *text = malloc(CORNERS * 64 + (size_t)FACES * CORNERS * 8);
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
+    OWNED(check_free) char *text = malloc(CORNERS * 64 + (size_t)FACES * CORNERS * 8);
     size_t at = 0;
     check_random random = {3};
     for (int i = 0; i < CORNERS; i++)
@@ -348,27 +343,24 @@ TEST(test_time) {
         (double)(after.tv_sec - before.tv_sec) + 1e-9 * (double)(after.tv_nsec - before.tv_nsec);
     print_message("%d tangled polygons of %d corners in %.1f s\n", FACES, CORNERS, took);
     assert_true(took < 60); // under sanitizers
-    free(text);
-    ewa_context_destroy(&context);
 }
 
 /// Every format under every name, and what is none.
 TEST(test_probe) {
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
     static const ewa_model_format formats[SAMPLES] = {EWA_MODEL_PLY,  EWA_MODEL_PLY, EWA_MODEL_OBJ,
                                                       EWA_MODEL_STL,  EWA_MODEL_STL, EWA_MODEL_OFF,
                                                       EWA_MODEL_GLTF, EWA_MODEL_GLTF};
     static const char *const names[] = {"a", "a.ply", "a.obj", "a.stl", "a.off", "a.gltf", "a.txt"};
     for (int i = 0; i < SAMPLES; i++)
         for (size_t n = 0; n < sizeof names / sizeof names[0]; n++) {
-            ewa_model model;
+            OWNED(ewa_model_free) ewa_model model;
             assert_int_equal(ewa_model_load_memory(context, samples[i].bytes, samples[i].size_bytes, names[n],
                                                    NULL, EWA_MODEL_MESH, NULL, &model),
                              EWA_OK);
             assert_int_equal(model.format, formats[i]);
             assert_true(strcmp(ewa_model_format_name(model.format), "unknown") != 0);
-            ewa_model_free(&model);
         }
     static const char *const none[] = {"hello world\n",
                                        "v ertex\n",
@@ -422,7 +414,6 @@ TEST(test_probe) {
     assert_int_equal(ewa_model_load(NULL, "a", 0, NULL, &model), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_model_load_memory(context, NULL, 4, "a", NULL, 0, NULL, &model), EWA_ERROR_ARGUMENT);
     ewa_model_free(NULL);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(make_samples, NULL); }

@@ -48,10 +48,9 @@ CASE(test_primitives) {
                            "\"buffers\":[{\"byteLength\":%zu}]}",
             cases[i].primitive, cases[i].index_type ? cases[i].index_type : 5125, cases[i].index_count,
             g.size - 48, g.size);
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         glb_load(context, &messages, &g, false, &mesh);
         check_square(&mesh);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -90,11 +89,10 @@ CASE(test_accessors) {
                            "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":4,\"byteLength\":%zu,"
                            "\"byteStride\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}",
             kinds[k].type, kinds[k].normalized ? "true" : "false", g.size - 4, stride, g.size);
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         glb_load(context, &messages, &g, false, &mesh);
         const double area = mesh_area(&mesh, NULL), wanted = 6 / (kinds[k].scale * kinds[k].scale);
         assert_true(fabs(area - wanted) < 1e-12 + 1e-9 * wanted);
-        ewa_mesh_free(&mesh);
     }
     // Negative ones, normalised: -128 counts as -1.
     glb g = {.bytes = {0x80, 0x81, 0, 127, 0x81, 0, 0, 127, 0}, .size = 9};
@@ -175,7 +173,7 @@ CASE(test_nodes) {
                  "]," GLTF_VIEW,
                  cases[i].nodes);
         for (int scenes = 0; scenes < 2; scenes++) {
-            ewa_mesh mesh;
+            OWNED(ewa_mesh_free) ewa_mesh mesh;
             double sum[3];
             // Without scenes, the nodes that are nobody's children are it.
             if (!scenes) memcpy(strstr(g.json, "\"scenes\""), "\"sceneX\"", 8);
@@ -187,7 +185,6 @@ CASE(test_nodes) {
                 assert_true(mesh.positions[v] <= cases[i].high[v % 3] + 1e-9);
             }
             if (i == 1) assert_true(mesh.positions[0] == 500000.25 && mesh.positions[1] == 4200000.5);
-            ewa_mesh_free(&mesh);
         }
     }
 }
@@ -205,10 +202,9 @@ CASE(test_coarse_floats) {
                  "[{\"attributes\":{\"POSITION\":0},\"mode\":6}]}],\"accessors\":[" GLTF_POSITIONS
                  "]," GLTF_VIEW,
                  moved);
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         glb_load(context, &messages, &g, true, &mesh);
         assert_int_equal(strstr(messages.text, "are floats, in steps of 0.5") != NULL, !moved);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -238,7 +234,7 @@ static void try_normals_and_colors(const char *material, float alpha) {
                                                "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":32},{"
                                                "\"buffer\":0,\"byteOffset\":128,\"byteLength\":16}],"
                                                "\"buffers\":[{\"byteLength\":144}]}", material);
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     glb_load(context, &messages, &g, false, &mesh);
     const uint32_t last = mesh_corner(&mesh, 1, 0, 3, 0), first = mesh_corner(&mesh, 0, 0, 0, 0),
                    second = mesh_corner(&mesh, 0, -4, 0, 0);
@@ -248,7 +244,6 @@ static void try_normals_and_colors(const char *material, float alpha) {
     assert_true(mesh.texcoords[2 * first + 1] == 1 && mesh.texcoords[2 * last + 1] == 0); // from below
     assert_float_equal(mesh.colors[4 * last], 0.2, 1e-6);                                 // linear
     assert_float_equal(mesh.colors[4 * second + 3], alpha, 1e-6);
-    ewa_mesh_free(&mesh);
 }
 
 CASE(test_normals_and_colors) {
@@ -324,7 +319,7 @@ CASE(test_points_and_lines) {
     assert_int_equal(model.mesh.triangle_count, 0);
     mesh_says(&messages, "1 lines beside the points are left out");
     ewa_model_free(&model);
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     snprintf(
         g.json, sizeof g.json,
         GLTF_HEAD(GLTF_NODE) "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":0},{"
@@ -334,7 +329,6 @@ CASE(test_points_and_lines) {
     glb_load(context, &messages, &g, true, &mesh);
     assert_int_equal(mesh.vertex_count, 4);
     mesh_says(&messages, "1 lines, 1 points beside the faces are left out");
-    ewa_mesh_free(&mesh);
 }
 
 /// Numbers that lie: each is an error that names the place.
@@ -458,10 +452,9 @@ CASE(test_large_buffer) {
                                   "\"buffers\":[{\"byteLength\":%d,\"uri\":\"large.bin\"}]}",
              CORNERS, CORNERS, BYTES);
     scratch_write(scratch_path("large.gltf", path), json, strlen(json));
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
     assert_int_equal(mesh.triangle_count, CORNERS / 3);
-    ewa_mesh_free(&mesh);
 }
 
 /// What is looked at again and again costs little each time: empty primitives of a mesh that many nodes have,

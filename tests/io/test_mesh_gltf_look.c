@@ -34,7 +34,7 @@ static glb textured(const char *json) {
     "pLvAAAAAElFTkSuQmCC"
 
 CASE(test_materials) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     glb g = textured(TEXTURED("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,0.5],"
                               "\"baseColorTexture\":{\"index\":0}}}",
                               "{\"source\":0}", "{\"uri\":\"" RED_PNG "\"}") "}");
@@ -72,7 +72,6 @@ CASE(test_materials) {
                  "", "") "}");
     glb_load(context, &messages, &g, false, &mesh);
     assert_true(mesh_material(&mesh, 0)->base_color[0] == 0 && mesh_material(&mesh, 0)->base_color[1] == 1);
-    ewa_mesh_free(&mesh);
 }
 
 /// Alpha of pictures: kept where it blends, dropped where the material is opaque, cut where it is a mask.
@@ -114,7 +113,7 @@ CASE(test_alpha) {
 
 /// Materials with one picture have it once, whatever is done with alpha, where it has none.
 CASE(test_shared) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
 #define PART(material)                                                                                       \
     "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"mode\":6,\"material\":" material "}"
 #define LOOK(mode) "{\"alphaMode\":\"" mode "\",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}"
@@ -132,7 +131,6 @@ CASE(test_shared) {
         assert_int_equal(mesh.materials[m].texture, 0);
         assert_null(mesh.textures[m].pixels);
     }
-    ewa_mesh_free(&mesh);
 }
 
 /// A WebP picture of one blue pixel.

@@ -32,9 +32,8 @@ static uint8_t *read_corpus(const char *name, size_t *size_bytes) {
 
 static void load_corpus(const char *name, ewa_mesh *mesh) {
     size_t size_bytes;
-    uint8_t *bytes = read_corpus(name, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = read_corpus(name, &size_bytes);
     mesh_load_bytes(context, &messages, name, bytes, size_bytes, false, mesh);
-    free(bytes);
 }
 
 /// The vertex of a mesh that is nearest to a place and a normal; the places' distance.
@@ -80,7 +79,7 @@ TEST(test_same_torus) {
 
 /// Loads bytes of which nothing is expected but an end, in memory of their own size.
 static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
-    uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
+    OWNED(check_free) uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
     memcpy(copy, bytes, size_bytes);
     ewa_model model;
     messages = (mesh_messages){.errors = 0};
@@ -88,18 +87,16 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
         ewa_model_load_memory(context, copy, size_bytes, "a.glb", NULL, EWA_MODEL_MESH, NULL, &model);
     assert_int_equal(status != EWA_OK, messages.errors > 0);
     if (status == EWA_OK) ewa_model_free(&model);
-    free(copy);
     return status;
 }
 
 TEST(test_every_truncation) {
     for (int n = 0; n < PACKED; n++) {
         size_t size_bytes;
-        uint8_t *bytes = read_corpus(packed_names[n], &size_bytes);
+        OWNED(check_free) uint8_t *bytes = read_corpus(packed_names[n], &size_bytes);
         for (size_t length = 0; length < size_bytes; length++)
             if (try_bytes(bytes, length) == EWA_OK)
                 fail_msg("%s: %zu bytes are enough", packed_names[n], length);
-        free(bytes);
     }
 }
 
@@ -112,7 +109,7 @@ TEST(test_wrong_bytes) {
     static const uint8_t values[] = {0, 1, 0x7f, 0x80, 0xff};
     for (int n = 0; n < PACKED; n++) {
         size_t size_bytes;
-        uint8_t *bytes = read_corpus(packed_names[n], &size_bytes);
+        OWNED(check_free) uint8_t *bytes = read_corpus(packed_names[n], &size_bytes);
         const size_t first = 28 + read_length(bytes + 12);
         uint32_t refused = 0;
         for (size_t at = first; at < size_bytes; at++) {
@@ -130,7 +127,6 @@ TEST(test_wrong_bytes) {
             memset(bytes + first, value, size_bytes - first);
             assert_true(try_bytes(bytes, size_bytes) != EWA_OK);
         }
-        free(bytes);
     }
 }
 
@@ -168,7 +164,7 @@ TEST(test_wrong_claims) {
     };
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         size_t size_bytes;
-        uint8_t *bytes = read_corpus(packed_names[cases[n].file], &size_bytes);
+        OWNED(check_free) uint8_t *bytes = read_corpus(packed_names[cases[n].file], &size_bytes);
         replace(bytes, size_bytes, cases[n].from, cases[n].to);
         const ewa_status status = try_bytes(bytes, size_bytes);
         char said[128];
@@ -178,18 +174,16 @@ TEST(test_wrong_claims) {
             found |= strstr(messages.text, word) != NULL;
         if (status != cases[n].status || !found)
             fail_msg("%s for %s: %d, %s", cases[n].to, cases[n].from, status, messages.text);
-        free(bytes);
     }
 }
 
 static ewa_status load_packed(ewa_context *failing, void *user) {
     size_t size_bytes;
-    uint8_t *bytes = read_corpus(user, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = read_corpus(user, &size_bytes);
     ewa_model model;
     const ewa_status status =
         ewa_model_load_memory(failing, bytes, size_bytes, "a.glb", NULL, EWA_MODEL_MESH, NULL, &model);
     if (status == EWA_OK) ewa_model_free(&model);
-    free(bytes);
     return status;
 }
 

@@ -38,12 +38,11 @@ CASE(test_spellings) {
                 else
                     text[at++] = *c;
             }
-            ewa_mesh mesh;
+            OWNED(ewa_mesh_free) ewa_mesh mesh;
             double sum[3];
             mesh_load_bytes(context, &messages, "a.obj", text, at, false, &mesh);
             assert_float_equal(mesh_area(&mesh, sum), 6, 0);
             assert_float_equal(sum[2], 6, 0);
-            ewa_mesh_free(&mesh);
         }
 }
 
@@ -79,7 +78,7 @@ CASE(test_utf16) {
 }
 
 CASE(test_texcoords_and_normals) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.obj",
                    SQUARE "vt 0 0\nvt 1 0 0.5\nvt 0.25\nvn 0 0 2\nvn 1 0 0\n"
                           "f 1/1/1 2/2/1 3/3/1\nf 1/2/-1 3/-1/2 4//2\n",
@@ -96,11 +95,10 @@ CASE(test_texcoords_and_normals) {
     mesh_load_text(context, &messages, "a.obj", SQUARE "vt 0 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\n",
                    &mesh);
     assert_int_equal(mesh.vertex_count, 4);
-    ewa_mesh_free(&mesh);
 }
 
 CASE(test_vertex_colors) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.obj",
                    "v 0 0 0\nv 1 0 0 0.5 0 1\nv 0 1 0 1 0 0 0.25\nv 1 1 0\nf 1 2 3\nf 2 4 3\n", &mesh);
     assert_float_equal(mesh.colors[4], ewa_linear_from_srgb(0.5f), 1e-6);
@@ -115,7 +113,6 @@ CASE(test_vertex_colors) {
     assert_true(mesh.colors[4] == 1 && mesh.colors[7] == 1);
     assert_float_equal(mesh.colors[6], ewa_linear_from_srgb(128 / 255.0f), 1e-6);
     assert_float_equal(mesh.colors[8], ewa_linear_from_srgb(0.2f), 1e-6);
-    ewa_mesh_free(&mesh);
 }
 
 /// What is no number, no corner, no face: the rest is a mesh, and it is said.
@@ -170,13 +167,12 @@ CASE(test_points) {
         messages = (mesh_messages){.errors = 0};
     }
     static const char lines[] = "v 1 2 3\nv 4 5 6\nl 1 2 7\n"; // drawn, as far as there are places
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     assert_int_equal(
         ewa_model_load_memory(context, lines, strlen(lines), "a.obj", NULL, EWA_MODEL_MESH, NULL, &model),
         EWA_OK);
     assert_string_equal(messages.text, "");
     assert_int_equal(ewa_cloud_point_count(model.points), 1001); // 1,000 steps
-    ewa_model_free(&model);
 }
 
 #define TEXTURED(library) "mtllib " library "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
@@ -192,7 +188,7 @@ static void load_with(const char *library, const char *object, ewa_mesh *mesh) {
 
 /// Several materials, colours, pictures with blanks in their names, options before them.
 CASE(test_materials) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_picture(context, "mtl red.png", 255, 0, 0);
     mesh_picture(context, "mtl_green.png", 0, 255, 0);
     load_with(
@@ -220,7 +216,6 @@ CASE(test_materials) {
     assert_true(mesh.texcoords[2 * unmapped] == 1 && mesh.texcoords[2 * unmapped + 1] == 0);
     for (int c = 0; c < 3; c++) assert_float_equal(mesh_material(&mesh, 4)->base_color[c], quarter, 1e-6);
     for (int c = 0; c < 3; c++) assert_true(mesh_material(&mesh, 5)->base_color[c] == 1);
-    ewa_mesh_free(&mesh);
 }
 
 /// What is written as PLY is the same mesh when it is read again: places, pictures, their coordinates,
@@ -237,7 +232,7 @@ CASE(test_written_as_ply) {
               TEXTURED("mtl.mtl") "v 1 1 4200000.125\nusemtl b\nf 1 2 3\nusemtl c\nf 1/1 2/2 3/3\nusemtl a\n"
                                   "f 2/1 4/3 3/2\n",
               &from);
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     assert_int_equal(ewa_model_load(context, scratch_path("mtl.obj", path),
                                     EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
                      EWA_OK);
@@ -271,12 +266,11 @@ CASE(test_written_as_ply) {
                      EWA_OK);
     assert_true(ewa_cloud_point_count(model.points) == 3 && !model.elements);
     mesh_says(&messages, "left out of 2 faces");
-    ewa_model_free(&model);
 }
 
 /// One picture that many materials name is there once.
 CASE(test_shared_picture) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_picture(context, "shared.png", 255, 0, 0);
     load_with(
         "newmtl a\nmap_Kd shared.png\nnewmtl b\nKd 0 1 0\nmap_Kd shared.png\nnewmtl c\nmap_Kd shared.png\n",
@@ -286,7 +280,6 @@ CASE(test_shared_picture) {
     for (uint32_t m = 0; m < mesh.material_count; m++) count += mesh.textures[m].pixels != NULL;
     assert_int_equal(count, 1);
     for (uint32_t t = 0; t < 3; t++) assert_ptr_equal(mesh_texture(&mesh, t), mesh_texture(&mesh, 0));
-    ewa_mesh_free(&mesh);
 }
 
 CASE(test_libraries) {
@@ -335,7 +328,7 @@ CASE(test_libraries) {
 /// A mesh that was renamed together with its library.
 CASE(test_renamed) {
     char path[512];
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     static const char *const library = "newmtl m\nKd 0 1 0\n", *const text =
                                                                    "mtllib old.mtl\nmtllib older.mtl\n" SQUARE
                                                                    "usemtl m\nf 1 2 3 4\n";
@@ -360,7 +353,6 @@ CASE(test_renamed) {
     assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
     mesh_says(&messages, "'itself.mtl' is left out: it is not there");
     assert_null(strstr(messages.text, "instead"));
-    ewa_mesh_free(&mesh);
 }
 
 /// A mesh that names no library has the one material of that beside it, where it has texture coordinates.
@@ -379,7 +371,7 @@ CASE(test_unnamed) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char path[512];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         unlink(scratch_path("unnamed.mtl", path));
         if (cases[i].library) scratch_write(path, cases[i].library, strlen(cases[i].library));
         scratch_write(scratch_path("unnamed.obj", path), cases[i].text, strlen(cases[i].text));
@@ -389,7 +381,6 @@ CASE(test_unnamed) {
         if (cases[i].taken) assert_true(mesh_material(&mesh, 0)->base_color[0] == 0);
         assert_int_equal(messages.errors, 0);
         assert_null(strstr(messages.text, "left out"));
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -443,7 +434,7 @@ CASE(test_hostile_names) {
 
 /// Many pictures that are missing are named a few times and counted.
 CASE(test_many_missing) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     char library[4096] = "", object[8192] = TEXTURED("mtl.mtl");
     for (int i = 0; i < 50; i++) {
         const size_t a = strlen(library), b = strlen(object);
@@ -454,7 +445,6 @@ CASE(test_many_missing) {
     mesh_says(&messages, "missing4.png");
     mesh_says(&messages, "50 pictures are left out in all");
     assert_null(strstr(messages.text, "missing5.png"));
-    ewa_mesh_free(&mesh);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

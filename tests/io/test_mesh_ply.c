@@ -10,7 +10,7 @@
 #define SQUARE_VERTICES "0 0 0\n2 0 0\n2 3 0\n0 3 0\n"
 
 CASE(test_polygons) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     double sum[3];
     mesh_load_text(context, &messages, "a.ply",
                    "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
@@ -31,7 +31,6 @@ CASE(test_polygons) {
                    "7 3 0 1 2 0 0.5\n7 3 0 2 3 2 1.5 2.5 1\n",
                    &mesh);
     assert_float_equal(mesh_area(&mesh, NULL), 6, 0);
-    ewa_mesh_free(&mesh);
 }
 
 /// Faces first, an element of unknown kind between, and numbers of the other byte order.
@@ -89,10 +88,9 @@ CASE(test_line_ends) {
             strcat(text, lines[i]);
             strcat(text, ends[e]);
         }
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         mesh_load_text(context, &messages, "a.ply", text, &mesh);
         assert_float_equal(mesh_area(&mesh, NULL), 0.5, 0);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -119,18 +117,17 @@ CASE(test_strips) {
                         "there are no faces");
             continue;
         }
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         double sum[3];
         mesh_load_text(context, &messages, "a.ply", text, &mesh);
         assert_int_equal(mesh.triangle_count, cases[i].triangles);
         assert_float_equal(mesh_area(&mesh, sum), cases[i].area, 1e-12);
         assert_float_equal(sum[2], cases[i].up, 1e-12);
-        ewa_mesh_free(&mesh);
     }
 }
 
 CASE(test_colors_and_normals) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     // 8 bits are sRGB, alpha is linear.
     mesh_load_text(context, &messages, "a.ply",
                    "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
@@ -168,7 +165,6 @@ CASE(test_colors_and_normals) {
         "property uchar blue\nend_header\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 255 0 0\n",
         &mesh);
     assert_true(mesh.colors[0] == 0 && mesh.colors[2] == 1 && mesh.vertex_count == 3);
-    ewa_mesh_free(&mesh);
 }
 
 /// Texture coordinates by vertex, under each of their names.
@@ -177,7 +173,7 @@ CASE(test_texcoords_of_vertices) {
         {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char text[1024];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         snprintf(text, sizeof text,
                  "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ "property float %s\nproperty float %s\n"
                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -186,14 +182,13 @@ CASE(test_texcoords_of_vertices) {
         mesh_load_text(context, &messages, "a.ply", text, &mesh);
         const uint32_t second = mesh_corner(&mesh, 0, 1, 0, 0);
         assert_true(mesh.texcoords[2 * second] == 1 && mesh.texcoords[2 * second + 1] == 0.25f);
-        ewa_mesh_free(&mesh);
     }
 }
 
 /// As MeshLab writes them: by corner, a number of a picture per face, pictures in comments.
 CASE(test_texcoords_of_faces) {
     char path[512];
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     static const char text[] =
         "ply\nformat ascii 1.0\ncomment TextureFile <this>_a.png\ncomment TextureFile second picture.png\n"
         "element vertex 4\n" XYZ "element face 3\nproperty list uchar int vertex_indices\n"
@@ -218,12 +213,11 @@ CASE(test_texcoords_of_faces) {
     mesh_says(&messages, "the picture 'alone_a.png' is left out: it is not there");
     mesh_says(&messages, "the picture 'second picture.png' is left out");
     assert_int_equal(messages.errors, 0);
-    ewa_mesh_free(&mesh);
 }
 
 /// As Artec writes them: in elements of their own, behind the faces.
 CASE(test_multi_texture) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.ply",
                    "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
                    "element face 2\nproperty list uchar int vertex_indices\n"
@@ -235,7 +229,6 @@ CASE(test_multi_texture) {
     const uint32_t corner = mesh_corner(&mesh, 1, 0, 3, 0), origin = mesh_corner(&mesh, 0, 0, 0, 0);
     assert_true(mesh.texcoords[2 * corner] == 0 && mesh.texcoords[2 * corner + 1] == 1);
     assert_true(mesh.texcoords[2 * origin] == 0.125f);
-    ewa_mesh_free(&mesh);
 }
 
 /// Faces that cannot be used are counted and said; the rest is a mesh.
@@ -274,7 +267,7 @@ CASE(test_odd_colors) {
                                "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
                                "0 0 0 1e300 0.5 0.5\n1 0 0 0.25 nan 0.5\n1 1 0 0.25 0.5 4\n0 1 0 -inf 0 0\n"
                                "3 0 1 2\n3 0 2 3\n";
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_bytes(context, &messages, "a.ply", text, strlen(text), true, &mesh);
     mesh_says(&messages, "a.ply: 3 colours are not finite and count as white");
     assert_int_equal(mesh.vertex_count, 4);
@@ -282,7 +275,6 @@ CASE(test_odd_colors) {
         const float expected[2][4] = {{1, 1, 1, 1}, {0.25f, 0.5f, 4, 1}};
         assert_memory_equal(mesh.colors + 4 * v, expected[v == 2], 4 * sizeof(float));
     }
-    ewa_mesh_free(&mesh);
 }
 
 /// Without faces it is a cloud, whatever is declared; with them, a mesh whatever the name.
@@ -299,7 +291,7 @@ CASE(test_what_is_a_mesh) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int n = 0; n < 3; n++) {
             char text[1024];
-            ewa_model model;
+            OWNED(ewa_model_free) ewa_model model;
             snprintf(text, sizeof text,
                      "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ "%send_header\n0 0 0\n1 0 0\n0 1 0\n%s",
                      cases[i].elements, strstr(cases[i].elements, " 0\n") ? "" : "3 0 1 2\n");
@@ -310,13 +302,12 @@ CASE(test_what_is_a_mesh) {
             assert_int_equal(model.face_count, cases[i].faces);
             assert_int_equal(model.mesh.triangle_count, cases[i].faces);
             assert_true((model.points != NULL) == (cases[i].faces == 0));
-            ewa_model_free(&model);
         }
 }
 
 /// Coordinates keep every digit: floats as they are, doubles far from the origin too.
 CASE(test_digits) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_text(
         context, &messages, "a.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
@@ -331,7 +322,6 @@ CASE(test_digits) {
                                  "500000 4200000 0\n500001 4200000 0\n500000 4200001 0\n3 0 1 2\n";
     mesh_load_bytes(context, &messages, "a.ply", coarse, strlen(coarse), true, &mesh);
     mesh_says(&messages, "coordinates up to 4200001 are floats, in steps of 0.5");
-    ewa_mesh_free(&mesh);
 }
 
 /// Everything that is no vertex is written again as it was read, in every encoding.
@@ -366,12 +356,11 @@ CASE(test_elements_round_trip) {
         options.elements = model.elements;
         assert_int_equal(ewa_cloud_save(model.points, path, &options), EWA_OK);
         ewa_model_free(&model);
-        char *again = (char *)scratch_read(path, &size);
+        OWNED(check_free) char *again = (char *)scratch_read(path, &size);
         again[size] = 0;
         if (encoding == 0) assert_string_equal(again, text);
         if (encoding) assert_string_equal(again, last);
         snprintf(last, sizeof last, "%s", again);
-        free(again);
     }
     assert_string_equal(messages.text, "");
 }

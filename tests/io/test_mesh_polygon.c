@@ -54,7 +54,7 @@ static void hold(const double (*outline)[2], uint32_t count, const char *name) {
     static uint32_t first[6000];
     for (int plane = 0; plane < 4; plane++)
         for (int s = 0; s < 2; s++) {
-            ewa_mesh_build build;
+            OWNED(ewa_mesh_build_close) ewa_mesh_build build;
             cut(outline, count, plane, shifts[s], &build);
             const uint32_t *corners = build.corners.items;
             const double *p = build.positions.items;
@@ -86,7 +86,6 @@ static void hold(const double (*outline)[2], uint32_t count, const char *name) {
             }
             assert_true(fabs(sum - factors[plane] * wanted) < 1e-9 * fabs(wanted) * factors[plane]);
             assert_int_equal(build.uncut_count, 0);
-            ewa_mesh_build_close(&build);
         }
 }
 
@@ -145,10 +144,9 @@ TEST_WITHIN(test_degenerate, begin, end) {
     } cases[] = {{point, 4}, {line, 5}, {bow, 4}, {star, 5}, {nan, 5}, {huge, 5}};
     static const double nowhere[3] = {0, 0, 0};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        ewa_mesh_build build;
+        OWNED(ewa_mesh_build_close) ewa_mesh_build build;
         cut(cases[i].outline, cases[i].count, 0, nowhere, &build);
         assert_true(build.corners.count >= 1 && build.corners.count <= cases[i].count - 2);
-        ewa_mesh_build_close(&build);
     }
     // A zigzag that crosses itself at every step, and a random tangle, of many corners.
     enum { MANY = 60000 };
@@ -163,10 +161,9 @@ TEST_WITHIN(test_degenerate, begin, end) {
                             : kind == 1 ? check_uniform(&random, 0, 1)
                                         : (double)(k % 4) * (double)(k % 7);
         }
-        ewa_mesh_build build;
+        OWNED(ewa_mesh_build_close) ewa_mesh_build build;
         cut((const double(*)[2])outline, MANY, 0, nowhere, &build);
         assert_true(build.corners.count >= 1 && build.corners.count <= MANY - 2);
-        ewa_mesh_build_close(&build);
     }
     free(outline);
 }

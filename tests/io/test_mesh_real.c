@@ -27,7 +27,7 @@ CASE(test_ply) {
                  {"models/pepper_artec_multitexture.ply", 29956, 0, true}};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         char path[512];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         bool closed;
         if (!check_data(files[i].path, path, sizeof path)) skip();
         assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
@@ -36,7 +36,6 @@ CASE(test_ply) {
         if (files[i].area > 0) assert_float_equal(mesh_area(&mesh, NULL), files[i].area, 1e-3);
         assert_int_equal(ewa_mesh_is_closed(&mesh, &closed), EWA_OK);
         if (closed != files[i].closed) fail_msg("%s: closed %d", path, closed);
-        ewa_mesh_free(&mesh);
     }
     assert_string_equal(messages.text, "");
 }
@@ -63,7 +62,7 @@ CASE(test_obj) {
                  {"models/armadillo_86k_tri.obj", 86482, 0, ""}};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         char path[512];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         if (!check_data(files[i].path, path, sizeof path)) skip();
         messages = (mesh_messages){.errors = 0};
         assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
@@ -75,7 +74,6 @@ CASE(test_obj) {
             fail_msg("%s: %u", path, mesh.triangle_count);
         if (files[i].area > 0) assert_float_equal(mesh_area(&mesh, NULL), files[i].area, 1e-4);
         if (strstr(path, "fuze") || strstr(path, "bunny10k")) assert_non_null(mesh_texture(&mesh, 0));
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -91,7 +89,7 @@ CASE(test_stl) {
                  {"models/variants/draco_test_sphere_ascii.stl", 224}};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         char path[512];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         if (!check_data(files[i].path, path, sizeof path)) skip();
         assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
         assert_int_equal(mesh.triangle_count, files[i].triangles);
@@ -99,7 +97,6 @@ CASE(test_stl) {
         bool closed;
         assert_int_equal(ewa_mesh_is_closed(&mesh, &closed), EWA_OK);
         assert_int_equal(closed, i >= 3);
-        ewa_mesh_free(&mesh);
     }
     assert_string_equal(messages.text, "");
 }

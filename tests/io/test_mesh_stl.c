@@ -23,12 +23,11 @@ CASE(test_ascii_stl) {
         "0\r\nvertex 0 3 0\r\nendloop\r\nendfacet\r\nendsolid\r\n",
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         double sum[3];
         mesh_load_text(context, &messages, i % 2 ? "a.bin" : "a.stl", texts[i], &mesh);
         assert_float_equal(mesh_area(&mesh, sum), 6, 0);
         assert_float_equal(sum[2], 6, 0);
-        ewa_mesh_free(&mesh);
     }
     static const struct {
         const char *text, *said;
@@ -103,7 +102,7 @@ CASE(test_binary_stl) {
 
 CASE(test_colors_of_stl) {
     uint8_t bytes[256];
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     // Magics: components from the low end, the high bit means the common colour.
     size_t size = make_binary("COLOR=\xff\x80\x40\xff, MATERIAL=", 2, 31u | 15u << 5, 0x8000u, bytes);
     mesh_load_bytes(context, &messages, "a.stl", bytes, size, false, &mesh);
@@ -124,7 +123,6 @@ CASE(test_colors_of_stl) {
     mesh_load_bytes(context, &messages, "a.stl", bytes, size, false, &mesh);
     check_color(&mesh, 0, 0, 15 / 31.0, 1);
     check_color(&mesh, 1, 1, 1, 1);
-    ewa_mesh_free(&mesh);
 }
 
 CASE(test_off) {
@@ -143,7 +141,7 @@ CASE(test_off) {
         "OFF\r\n4 2 0\r\n0 0 0\r\n2 0 0\r\n2 3 0\r\n0 3 0\r\n3 0 1 2 0\r\n3 0 2 3 1\r\n",
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         double sum[3];
         mesh_load_text(context, &messages, "a", texts[i], &mesh);
         assert_float_equal(mesh_area(&mesh, sum), 6, 0);
@@ -153,7 +151,6 @@ CASE(test_off) {
                     (mesh.texcoords != NULL) == (i == 7));
         if (colored) check_color(&mesh, 0, 1, 0, 0);
         if (i == 7) assert_true(mesh.texcoords[2 * mesh_corner(&mesh, 0, 2, 3, 0) + 1] == 1);
-        ewa_mesh_free(&mesh);
     }
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.off",

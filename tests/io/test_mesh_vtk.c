@@ -36,14 +36,13 @@ CASE(test_cells) {
                "TEXTURE_COORDINATES t 2 float\n0 0 1 0 1 1 0 1\nLOOKUP_TABLE l 1\n1 1 1 1\n",
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         if (i == 3) {
             mesh_load_bytes(context, &messages, "a.vtk", texts[i], strlen(texts[i]), true, &mesh);
             assert_float_equal(mesh_area(&mesh, NULL), 6, 0);
         } else {
             load_square(texts[i], &mesh);
         }
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -55,7 +54,7 @@ CASE(test_data) {
     };
     for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
         char text[1024];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         snprintf(text, sizeof text, SQUARE "POINT_DATA 4\nNORMALS n double\n0 0 1 0 0.1 1 0 0 1 0 0 1\n%s",
                  colors[i]);
         load_square(text, &mesh);
@@ -65,7 +64,6 @@ CASE(test_data) {
         assert_true(mesh.colors[4 * second] == 1 && mesh.colors[4 * second + 1] == 0);
         assert_float_equal(mesh.colors[4 * second + 3], 0.2, 1e-6);
         assert_float_equal(mesh.normals[3 * second + 1] / mesh.normals[3 * second + 2], 0.1, 1e-6);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -120,10 +118,9 @@ CASE(test_numbers) {
     assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_ERROR_ARGUMENT);
     mesh.vertex_count++;
     ewa_mesh_free(&mesh);
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     assert_int_equal(ewa_model_load_memory(context, TEXT POINTS ARRAYS, sizeof(TEXT POINTS ARRAYS) - 1, "a.vtk", NULL, 0, NULL, &model), EWA_OK);
     hold_numbers(model.points, "Elevation", EWA_F32, 1, 3, (const double[]){7});
-    ewa_model_free(&model);
 }
 
 /// Checks that every corner of the triangle over (x, y) has a number of its cell.
@@ -168,13 +165,12 @@ CASE(test_cell_numbers) {
         hold_cell(&mesh, 0.1, 1, "scalar_radius", EWA_I16, 4);
         hold_cell(&mesh, 0.1, 1, of_points, EWA_F64, 9);
         ewa_mesh_free(&mesh);
-        ewa_model model;
+        OWNED(ewa_model_free) ewa_model model;
         assert_int_equal(ewa_model_load_memory(context, cells[i], strlen(cells[i]), "a.vtk", NULL, EWA_MODEL_POINTS, NULL, &model), EWA_OK);
         assert_null(ewa_cloud_find(model.points, "id"));
-        ewa_model_free(&model);
     }
     // Of a grid the cells at its sides.
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.vtk",
                    HEAD "ASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 3 2 3\nX_COORDINATES 3 float\n0 1 2\nY_COORDINATES 2 float\n0 1\n"
                         "Z_COORDINATES 3 float\n0 1 2\nCELL_DATA 4\nSCALARS id int\nLOOKUP_TABLE default\n1 2 3 4\n", &mesh);
@@ -184,7 +180,6 @@ CASE(test_cell_numbers) {
         const double wanted = 1 + (middle[0] > 1) + 2 * (middle[2] > 1);
         for (int c = 0; c < 3; c++) hold_numbers(mesh.attributes, "id", EWA_I32, 1, mesh.triangles[3 * t + (uint32_t)c], &wanted);
     }
-    ewa_mesh_free(&mesh);
 }
 
 /// Colours of cells are those of their faces, where points have none.
@@ -196,7 +191,7 @@ CASE(test_cell_colors) {
         "CELL_DATA 2\nCOLOR_SCALARS rgb 3\n1 0 0 0 0 1\nPOINT_DATA 4\nCOLOR_SCALARS p 3\n0 1 0 0 1 0 0 1 0 0 1 0\n",
     };
     for (int i = 0; i < 4; i++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         char text[1024];
         snprintf(text, sizeof text, TEXT POINTS "POLYGONS 2 8\n3 0 1 2 3 0 2 3\n%s", colors[i]);
         mesh_load_text(context, &messages, "a.vtk", text, &mesh);
@@ -206,7 +201,6 @@ CASE(test_cell_colors) {
                 const int wanted = i >= 2 ? 1 : t ? 2 : 0;
                 for (int k = 0; k < 4; k++) assert_true(color[k] == (k == 3 || k == wanted));
             }
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -259,16 +253,14 @@ CASE(test_bytes) {
         ewa_mesh_free(&mesh);
         // Cut anywhere: refused, or as much as there is.
         for (size_t cut = 0; cut < size; cut++) {
-            uint8_t *part = malloc(cut + 1);
+            OWNED(check_free) uint8_t *part = malloc(cut + 1);
             assert_non_null(part);
             memcpy(part, bytes, cut);
-            ewa_model model;
+            OWNED(ewa_model_free) ewa_model model;
             const ewa_status status =
                 ewa_model_load_memory(context, part, cut, "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model);
             if (status == EWA_OK && model.mesh.triangle_count)
                 assert_float_equal(mesh_area(&model.mesh, NULL), 6, 0);
-            ewa_model_free(&model);
-            free(part);
         }
     }
 }
@@ -344,10 +336,9 @@ CASE(test_left_out) {
 static ewa_status load_failing(ewa_context *failing, void *user) {
     uint8_t bytes[1024];
     const size_t size = make_bytes(true, bytes);
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     const ewa_status status =
         ewa_model_load_memory(failing, bytes, size, "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model);
-    ewa_model_free(&model);
     return status;
 }
 

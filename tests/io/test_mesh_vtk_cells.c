@@ -29,13 +29,12 @@ static double volume_of(const ewa_mesh *mesh) {
 
 /// Checks the area, the volume and the number of faces of a text; messages may be said.
 static void check(const char *text, double area, double volume, uint32_t triangles) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     mesh_load_bytes(context, &messages, "a.vtk", text, strlen(text), true, &mesh);
     if (fabs(mesh_area(&mesh, NULL) - area) > 1e-9 || fabs(volume_of(&mesh) - volume) > 1e-9 ||
         (triangles && mesh.triangle_count != triangles))
         fail_msg("area %.12g, volume %.12g, %u triangles of %s", mesh_area(&mesh, NULL), volume_of(&mesh),
                  mesh.triangle_count, text);
-    ewa_mesh_free(&mesh);
 }
 
 CASE(test_solids) {
@@ -112,14 +111,13 @@ CASE(test_shared) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[1024];
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         snprintf(text, sizeof text, GRID "POINTS 13 float " CUBE ABOVE "%s\n", cases[i].cells);
         mesh_load_bytes(context, &messages, "a.vtk", text, strlen(text), true, &mesh);
         if (fabs(mesh_area(&mesh, NULL) - cases[i].area) > 1e-12 ||
             (cases[i].triangles && mesh.triangle_count != cases[i].triangles))
             fail_msg("area %.12g, %u triangles of %s", mesh_area(&mesh, NULL), mesh.triangle_count, text);
         if (cases[i].volume > 0) assert_float_equal(volume_of(&mesh), cases[i].volume, 1e-12);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -174,26 +172,23 @@ CASE(test_refused) {
                         broken[i].said);
             continue;
         }
-        ewa_model model;
+        OWNED(ewa_model_free) ewa_model model;
         assert_int_equal(ewa_model_load_memory(context, broken[i].text, strlen(broken[i].text), "a.vtk", NULL,
                                                EWA_MODEL_MESH, NULL, &model),
                          EWA_OK);
-        ewa_model_free(&model);
     }
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     static const char odd[] = GRID "POINTS 8 float " CUBE "CELLS 2 12 8 0 1 2 3 4 5 6 7 2 0 1 CELL_TYPES 2 12 99\n";
     mesh_load_bytes(context, &messages, "a.vtk", odd, sizeof odd - 1, true, &mesh);
     mesh_says(&messages, "1 cells of a kind that is not known are left out");
-    ewa_mesh_free(&mesh);
 }
 
 static ewa_status load_failing(ewa_context *failing, void *user) {
     static const char text[] =
         GRID "POINTS 13 float " CUBE ABOVE "CELLS 2 18 8 0 1 2 3 4 5 6 7 8 4 5 6 7 8 9 10 11 CELL_TYPES 2 12 12\n";
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     const ewa_status status =
         ewa_model_load_memory(failing, text, sizeof text - 1, "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model);
-    ewa_model_free(&model);
     return status;
 }
 

@@ -53,13 +53,12 @@ CASE(test_lists) {
         uint32_t triangles;
     } lists[] = {{"list.pvtu", 2}, {"list.vtm", 3}, {"list.pvd", 4}};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
-        ewa_model model;
+        OWNED(ewa_model_free) ewa_model model;
         if (load(lists[i].name, &model) != EWA_OK) fail_msg("%s: %s", lists[i].name, messages.text);
         assert_int_equal(model.format, EWA_MODEL_VTK);
         assert_int_equal(model.mesh.triangle_count, lists[i].triangles);
         assert_float_equal(mesh_area(&model.mesh, NULL), 0.5 * lists[i].triangles, 1e-12);
         assert_int_equal(messages.warnings, i == 2);
-        ewa_model_free(&model);
     }
     mesh_says(&messages, "of several times the first is read: 0");
 }
@@ -93,7 +92,7 @@ CASE(test_lines) {
                "<DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0 3 0 0 3 4 0 0 4 0</DataArray></Points><Lines>"
                "<DataArray type=\"Int32\" Name=\"connectivity\">0 1 2 2 3 3 9</DataArray>"
                "<DataArray type=\"Int32\" Name=\"offsets\">3 5 7</DataArray></Lines></Piece></PolyData></VTKFile>");
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     assert_int_equal(load("lines.vtp", &model), EWA_OK);
     assert_string_equal(messages.text, "");
     // The diagonal is 5, the step 0.005: 600, 800 and 600 parts.
@@ -107,14 +106,12 @@ CASE(test_lines) {
         if (p[1] == 0) assert_float_equal(colors[4 * i], 1 - p[0] / 3, 1e-6);
     }
     assert_float_equal(places[3 * 4], 0.005, 1e-12);
-    ewa_model_free(&model);
 }
 
 static ewa_status load_failing(ewa_context *failing, void *user) {
     char path[512];
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     const ewa_status status = ewa_model_load(failing, scratch_path(user, path), EWA_MODEL_MESH | EWA_MODEL_POINTS, NULL, &model);
-    ewa_model_free(&model);
     return status;
 }
 

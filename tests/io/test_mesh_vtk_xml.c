@@ -176,7 +176,7 @@ CASE(test_storages) {
     static writer w;
     for (int storage = 0; storage < STORAGES; storage++) {
         for (int way = 0; way < 4; way++) {
-            ewa_mesh mesh;
+            OWNED(ewa_mesh_free) ewa_mesh mesh;
             make_grid(&w, storage, way & 1, way & 2);
             mesh_load_bytes(context, &messages, "a.vtu", w.bytes, w.size, false, &mesh);
             const double expected = (way & 2 ? 2 : 1) * (5 + sqrt(2));
@@ -220,7 +220,6 @@ CASE(test_storages) {
             }
             for (uint32_t i = 0; i < mesh.vertex_count; i++)
                 assert_true(mesh.colors[4 * i] == 0 && mesh.colors[4 * i + 1] == 1 && mesh.colors[4 * i + 3] == 1);
-            ewa_mesh_free(&mesh);
         }
     }
 }
@@ -231,7 +230,7 @@ CASE(test_polygons) {
                         polygons[7] = {4, 5, 6, 4, 6, 7, 8}, polygon_ends[2] = {3, 7},
                         ids[4] = {1, 20, 30, 40}; // strips come before polygons, and their data behind
     for (int storage = 0; storage < STORAGES; storage++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         begin_file(&w, "PolyData", storage, false);
         put(&w, "<Piece NumberOfPoints=\"9\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"1\" NumberOfPolys=\"2\">\n<CellData>\n");
         put_array(&w, "Int32", "Name=\"id\"", 4, ids);
@@ -261,7 +260,6 @@ CASE(test_polygons) {
             ewa_attribute_read_f64(numbers, mesh.triangles[3 * t], 1, &id);
             assert_float_equal(id, z == 0 ? 40 : t == 2 ? 20 : 30, 0);
         }
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -295,7 +293,7 @@ CASE(test_pieces) {
 }
 
 CASE(test_grids) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     double sum[3];
     // Two pieces of a structured sheet that meet, behind remarks and what is not read.
     mesh_load_text(context, &messages, "a.vts",
@@ -314,7 +312,6 @@ CASE(test_grids) {
                    &mesh);
     assert_float_equal(mesh_area(&mesh, sum), 2 * (5 * 2 + 5 * 3 + 2 * 3), 0);
     assert_float_equal(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2], 0, 0);
-    ewa_mesh_free(&mesh);
 }
 
 /// Two polyhedra that share a face, in the second piece, where their corners are counted on.
@@ -389,16 +386,14 @@ CASE(test_cut) {
     for (int storage = 1; storage <= 4; storage += 3) {
         make_grid(&w, storage, false, false);
         for (size_t cut = 0; cut < w.size; cut++) {
-            uint8_t *part = malloc(cut + 1);
+            OWNED(check_free) uint8_t *part = malloc(cut + 1);
             assert_non_null(part);
             memcpy(part, w.bytes, cut);
-            ewa_model model;
+            OWNED(ewa_model_free) ewa_model model;
             const ewa_status status =
                 ewa_model_load_memory(context, part, cut, "a.vtu", NULL, EWA_MODEL_MESH, NULL, &model);
             if (status == EWA_OK && model.mesh.triangle_count)
                 assert_float_equal(mesh_area(&model.mesh, NULL), 5 + sqrt(2), 1e-12);
-            ewa_model_free(&model);
-            free(part);
         }
     }
 }
@@ -406,10 +401,9 @@ CASE(test_cut) {
 static writer for_failing;
 
 static ewa_status load_failing(ewa_context *failing, void *user) {
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     const ewa_status status = ewa_model_load_memory(failing, for_failing.bytes, for_failing.size, "a.vtu", NULL,
                                                     EWA_MODEL_MESH, NULL, &model);
-    ewa_model_free(&model);
     return status;
 }
 

@@ -24,23 +24,21 @@ static uint32_t bits_of_f32(float value) {
 /// Reads from memory that ends exactly where the text does, so that a sanitizer sees one byte too many.
 static double read_f64(const char *text, size_t *length) {
     const size_t size = strlen(text);
-    char *exact = malloc(size ? size : 1);
+    OWNED(check_free) char *exact = malloc(size ? size : 1);
     memcpy(exact, text, size);
     double value = 12345;
     const char *after = ewa_number_read_f64(exact, exact + size, &value);
     *length = after ? (size_t)(after - exact) : 0;
-    free(exact);
     return value;
 }
 
 static float read_f32(const char *text, size_t *length) {
     const size_t size = strlen(text);
-    char *exact = malloc(size ? size : 1);
+    OWNED(check_free) char *exact = malloc(size ? size : 1);
     memcpy(exact, text, size);
     float value = 12345;
     const char *after = ewa_number_read_f32(exact, exact + size, &value);
     *length = after ? (size_t)(after - exact) : 0;
-    free(exact);
     return value;
 }
 

@@ -31,9 +31,7 @@ static const ewa_option_table *const tables[] = {
 
 /// Defaults are allowed, survive as text, and every member is named once, said in a sentence and in its
 /// struct.
-TEST(test_tables) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_tables, 1) {
     static double made[512], again[512];
     for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++) {
         const ewa_option_table *table = tables[t];
@@ -57,7 +55,6 @@ TEST(test_tables) {
         assert_int_equal(ewa_options_check(context, table, "here", made), EWA_OK);
     }
     assert_null(ewa_option_find(&ewa_render_options_table, "cutof"));
-    ewa_context_destroy(&context);
 }
 
 typedef struct sample_options {
@@ -194,9 +191,7 @@ typedef struct later_options {
 } later_options;
 
 /// What an older header does not have gets its default; what a newer one has may be zero only.
-TEST(test_sizes) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_sizes, 1) {
     sample_options given, chosen;
     for (size_t size = 0; size <= sizeof given; size++) {
         memset(&given, 0xee, sizeof given);
@@ -209,7 +204,7 @@ TEST(test_sizes) {
         // Members end at multiples of 8, but for two that share one.
         const bool whole = size % 8 == 0 && size > 8 && size != AT(any) + 8;
         assert_int_equal(status, whole ? EWA_OK : EWA_ERROR_ARGUMENT);
-        if (!whole) assert_non_null(strstr(log.text, "sample_options: struct_size is"));
+        if (!whole) assert_non_null(strstr(log->text, "sample_options: struct_size is"));
         if (!whole) continue;
         assert_true(chosen.struct_size == sizeof chosen && chosen.above == 1.5 && chosen.any[1] == -2);
         assert_true(chosen.count == 5 && chosen.passes == 3 && chosen.color == 2 && chosen.flag);
@@ -221,25 +216,22 @@ TEST(test_sizes) {
     assert_true(chosen.above == 2 && chosen.struct_size == sizeof chosen);
     later.more[1] = 1;
     assert_int_equal(ewa_options_take(context, &sample_table, &later, &chosen), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "sample_options: a member at byte"));
+    assert_non_null(strstr(log->text, "sample_options: a member at byte"));
     later.old.struct_size = (size_t)1 << 40; // never set: nothing is read
     assert_int_equal(ewa_options_take(context, &sample_table, &later, &chosen), EWA_ERROR_ARGUMENT);
     given = chosen;
     given.either = 0.5;
     assert_int_equal(ewa_options_take(context, &sample_table, &given, &chosen), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "sample_options: either is 0.5, allowed is 0 or [1, 256]"));
+    assert_non_null(strstr(log->text, "sample_options: either is 0.5, allowed is 0 or [1, 256]"));
     ewa_options_init(&sample_table, &given, sizeof given);
     given.any[1] = NAN;
     assert_int_equal(ewa_options_take(context, &sample_table, &given, &chosen), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "any[1] is nan, allowed is (-inf, inf)"));
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "any[1] is nan, allowed is (-inf, inf)"));
 }
 
 /// The same through the public functions.
-TEST(test_callers) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_cloud *cloud = NULL;
+TEST_LOGGED(test_callers, 1) {
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     struct {
         ewa_generate_options options;
         double later;
@@ -255,10 +247,7 @@ TEST(test_callers) {
     WITH_DEFAULTS(ewa_surfels_options, older);
     older.struct_size = offsetof(ewa_surfels_options, radius_scale);
     older.radius_scale = -1; // of another program's variable
-    ewa_surfels *surfels = check_surfels(cloud, &older);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, &older);
 }
 
 TEST(test_colors) {

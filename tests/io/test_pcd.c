@@ -217,7 +217,7 @@ CASE(test_colors) {
 }
 
 CASE(test_names_of_scans) {
-    ewa_cloud *cloud = load_text(HEADER(
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load_text(HEADER(
         "x y z nx ny nz Intensity ReturnNumber ScanAngleRank GpsTime other", "4 4 4 4 4 4 2 1 1 4 4",
         "F F F F F F U U I F I", "1 1 1 1 1 1 1 1 1 1 1", "1") "DATA ascii\n1 2 3 0 0 1 500 2 -9 0.5 7\n");
     cloud_expect(cloud, "normal", EWA_F32, 3, 0, (const double[]){0, 0, 1});
@@ -226,7 +226,6 @@ CASE(test_names_of_scans) {
     cloud_expect(cloud, "scan_angle", EWA_F32, 1, 0, (const double[]){-9});
     cloud_expect(cloud, "gps_time", EWA_F64, 1, 0, (const double[]){0.5});
     cloud_expect(cloud, "other", EWA_I32, 1, 0, (const double[]){7});
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_histograms_are_split) {
@@ -234,26 +233,26 @@ CASE(test_histograms_are_split) {
     for (int i = 0; i < 36; i++) body[i] = (float)i;
     cloud_bytes file =
         make(HEADER("x y z fpfh", "4 4 4 4", "F F F F", "1 1 1 33", "1"), "binary", body, sizeof body);
-    ewa_cloud *cloud = load(&file);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_attribute_count(cloud), 34);
     cloud_expect(cloud, "fpfh_0", EWA_F32, 1, 0, (const double[]){3});
     cloud_expect(cloud, "fpfh_32", EWA_F32, 1, 0, (const double[]){35});
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
 CASE(test_names_that_clash_are_left_out) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = load_text(HEADER("x y z a a normal", "4 4 4 4 4 4", "F F F F F F", "1 1 1 1 1 1",
                                         "1") "DATA ascii\n1 2 3 4 5 6\n");
     assert_int_equal(messages.count, 2);
     assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
     cloud_expect(cloud, "a", EWA_F32, 1, 0, (const double[]){4});
-    ewa_cloud_destroy(&cloud);
 }
 
 // ---- text ------------------------------------------------------------------------------------------------
 
 CASE(test_text_keeps_digits) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = load_text(XYZ("2") "DATA ascii\n289814.15,4320978.61,170.76\r\n\r\n# no point\r\n"
                                           "\t289814.64 ,\t4320978.84 170.76");
     cloud_expect_world(cloud, 0, (const double[]){289814.15, 4320978.61, 170.76});
@@ -265,7 +264,6 @@ CASE(test_text_keeps_digits) {
     cloud = load_text(XYZ("1") "DATA ascii\n0.0054215998 -1.5e-7 1e3\n"); // floats with all their digits
     cloud_expect(cloud, "position", EWA_F32, 3, 0,
                  (const double[]){(double)0.0054215998f, (double)-1.5e-7f, 1000});
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Text of many pieces, with blank lines, comments and points without a place in between.
@@ -320,9 +318,8 @@ CASE(test_text_of_many_pieces) {
 }
 
 CASE(test_more_lines_than_points) {
-    ewa_cloud *cloud = load_text(XYZ("1") "DATA ascii\n1 2 3\n4 5 6\nrubbish\n");
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load_text(XYZ("1") "DATA ascii\n1 2 3\n4 5 6\nrubbish\n");
     assert_int_equal(ewa_cloud_point_count(cloud), 1);
-    ewa_cloud_destroy(&cloud);
 }
 
 // ---- points without a place ------------------------------------------------------------------------------
@@ -342,7 +339,7 @@ CASE(test_organised_clouds) {
         "VERSION 0.7\nFIELDS x y z i\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 100\n"
         "HEIGHT 70\nVIEWPOINT 1 2.5 -3 1 0 0 0\nPOINTS 7000\n";
     cloud_bytes file = make(header, "binary", body, sizeof body);
-    ewa_cloud *cloud = load(&file);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_point_count(cloud), finite_count);
     double before = -1;
     for (uint32_t k = 0; k < finite_count; k++) {
@@ -360,7 +357,6 @@ CASE(test_organised_clouds) {
     assert_string_equal(ewa_cloud_note(cloud, "file.format", NULL), "PCD 0.7 binary");
     assert_string_equal(ewa_cloud_note(cloud, "scanners", NULL), "1 2.5 -3");
     cloud_check_pieces(&file, "organised.pcd", cloud);
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
@@ -465,13 +461,11 @@ CASE(test_what_lzf_packs) {
         {"\x20\x00", 2, NULL, 3},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        uint8_t *from = malloc(cases[i].packed_bytes), *to = malloc(cases[i].text_bytes);
+        OWNED(check_free) uint8_t *from = malloc(cases[i].packed_bytes), *to = malloc(cases[i].text_bytes);
         memcpy(from, cases[i].packed, cases[i].packed_bytes);
         if (ewa_lzf_unpack(from, cases[i].packed_bytes, to, cases[i].text_bytes) != (cases[i].text != NULL))
             fail_msg("case %zu", i);
         if (cases[i].text) assert_memory_equal(to, cases[i].text, cases[i].text_bytes);
-        free(from);
-        free(to);
     }
     // Long pieces from far away, as wide copies see them.
     uint8_t packed[4096], text[8192], expected[8192];
@@ -512,7 +506,7 @@ CASE(test_truncated) {
 CASE(test_keeps_going) {
     cloud_bytes file = make(XYZ("5"), "ascii", "1 2 3\n4 5\nx\n7 8 9\n", 18);
     uint64_t lost_count;
-    ewa_cloud *cloud = cloud_keep_going(context, &file, "keep.pcd", &lost_count);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = cloud_keep_going(context, &file, "keep.pcd", &lost_count);
     assert_int_equal(ewa_cloud_point_count(cloud), 2);
     assert_int_equal(lost_count, 3);
     cloud_expect(cloud, "position", EWA_F32, 3, 1, (const double[]){7, 8, 9});
@@ -523,7 +517,6 @@ CASE(test_keeps_going) {
     cloud = cloud_keep_going(context, &file, "keep.pcd", &lost_count);
     assert_int_equal(ewa_cloud_point_count(cloud), 2);
     assert_int_equal(lost_count, 7);
-    ewa_cloud_destroy(&cloud);
     free(file.bytes);
 }
 
@@ -540,9 +533,8 @@ CASE(test_damaged_bytes_are_survived) {
 
 static ewa_status load_each(ewa_context *failing, void *user) {
     const cloud_bytes *file = user;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     const ewa_status status = ewa_cloud_load_memory(failing, file->bytes, file->size, "sample.pcd", &cloud);
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 

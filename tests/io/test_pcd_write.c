@@ -59,7 +59,7 @@ CASE(test_written_files_read_back) {
     scratch_path("back.pcd", path);
     for (int encoding = 0; encoding < 3; encoding += 2)
         for (int type = EWA_F32; type <= EWA_F64; type++) {
-            ewa_cloud *cloud = make_cloud(9001, (ewa_type)type), *back = NULL;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(9001, (ewa_type)type), *back = NULL;
             WITH_DEFAULTS(ewa_cloud_save_options, options);
             options.ply_encoding = (ewa_ply_encoding)encoding;
             assert_int_equal(ewa_cloud_set_note(cloud, "scanners", "1.5 -2 3e6", 10), EWA_OK);
@@ -69,8 +69,6 @@ CASE(test_written_files_read_back) {
             assert_string_equal(ewa_cloud_note(back, "scanners", NULL), "1.5 -2 3000000");
             assert_string_equal(ewa_cloud_note(back, "file.format", NULL),
                                 encoding ? "PCD 0.7 ascii" : "PCD 0.7 binary");
-            ewa_cloud_destroy(&back);
-            ewa_cloud_destroy(&cloud);
         }
     assert_string_equal(messages.text, "");
 }
@@ -78,7 +76,7 @@ CASE(test_written_files_read_back) {
 CASE(test_written_in_pieces_of_unknown_count) {
     char path[512];
     scratch_path("pieces.pcd", path);
-    ewa_cloud *cloud = make_cloud(300, EWA_F32), *back = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(300, EWA_F32), *back = NULL;
     ewa_cloud_writer *writer = NULL;
     assert_int_equal(ewa_cloud_writer_open(context, path, NULL, cloud, EWA_POINTS_UNKNOWN, NULL, &writer),
                      EWA_OK);
@@ -86,14 +84,12 @@ CASE(test_written_in_pieces_of_unknown_count) {
     assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
     assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(back), 1500);
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_world_coordinates_are_written) {
     char path[512];
     scratch_path("world.pcd", path);
-    ewa_cloud *cloud = NULL, *back = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL, *back = NULL;
     void *data;
     assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "position", EWA_F32, 3, &data), EWA_OK);
@@ -102,14 +98,12 @@ CASE(test_world_coordinates_are_written) {
     assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
     cloud_expect_world(back, 0, (const double[]){4200000.25, 499999.5, 1});
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_what_is_not_written) {
     char path[512];
     scratch_path("refused.pcd", path);
-    ewa_cloud *cloud = make_cloud(1, EWA_F32);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(1, EWA_F32);
     WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
     assert_int_equal(ewa_cloud_save(cloud, path, &options), EWA_ERROR_UNSUPPORTED);
@@ -117,7 +111,6 @@ CASE(test_what_is_not_written) {
     assert_int_equal(ewa_cloud_add(cloud, "a_b", EWA_U8, 1, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(messages.text, "field 'a_b' would have the name of another one"));
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

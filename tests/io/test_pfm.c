@@ -10,7 +10,7 @@ TEST_ON(test_known_bytes, 1) {
     // 1 x 2, rows from the bottom up: the first in the file is the lower one.
     static const char little[] = "Pf\n1 2\n-1.0\n\0\0\x80\x3f\0\0\0\xc0",
                       big[] = "Pf 1\t2\r1e0\n\x3f\x80\0\0\xc0\0\0\0";
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_load_memory(context, little, sizeof little - 1, "little.pfm", &image), EWA_OK);
     assert_int_equal(image.channel_count, 1);
     assert_true(image.width_px == 1 && image.height_px == 2);
@@ -25,7 +25,6 @@ TEST_ON(test_known_bytes, 1) {
     free(bytes);
     assert_int_equal(ewa_image_load_memory(context, big, sizeof big - 1, "big.pfm", &image), EWA_OK);
     assert_true(image.pixels[0] == -2 && image.pixels[1] == 1);
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_round_trip_is_exact, 1) {
@@ -54,9 +53,7 @@ TEST_ON(test_round_trip_is_exact, 1) {
     }
 }
 
-TEST(test_broken_heads) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_broken_heads, 1) {
     static const char *const heads[] = {
         "Pf\n",
         "Pf\n1",
@@ -78,30 +75,27 @@ TEST(test_broken_heads) {
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++) {
         assert_int_equal(ewa_image_load_memory(context, heads[i], strlen(heads[i]), "x.pfm", &image),
                          EWA_ERROR_FORMAT);
-        assert_memory_equal(log.text, "x.pfm: PFM: ", 12);
+        assert_memory_equal(log->text, "x.pfm: PFM: ", 12);
     }
     static const char wide[] = "Pf\n4000000000 1\n-1\nabcd";
     assert_int_equal(ewa_image_load_memory(context, wide, sizeof wide - 1, "x.pfm", &image), EWA_ERROR_LIMIT);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_every_truncation_is_refused, 1) {
     static const char whole[] = "PF\n1 2\n-0.5\nabcdefghijklmnopqrstuvwx";
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     for (size_t length = 0; length < sizeof whole - 1; length++) {
-        char *exact = malloc(length ? length : 1);
+        OWNED(check_free) char *exact = malloc(length ? length : 1);
         memcpy(exact, whole, length);
         assert_int_equal(ewa_image_load_memory(context, exact, length, "x.pfm", &image), EWA_ERROR_FORMAT);
-        free(exact);
     }
     assert_int_equal(ewa_image_load_memory(context, whole, sizeof whole - 1, "x.pfm", &image), EWA_OK);
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_real_file, 1) {
     char path[512];
     if (check_data("rgbd/stereo/motorcycle_disp.pfm", path, sizeof path)) {
-        ewa_image image;
+        OWNED(ewa_image_free) ewa_image image;
         assert_int_equal(ewa_image_load(context, path, &image), EWA_OK);
         assert_true(image.width_px == 741 && image.height_px == 500 && image.channel_count == 1);
         // The floor in front, at the bottom of the picture, has larger disparities than the wall.
@@ -113,7 +107,6 @@ TEST_ON(test_real_file, 1) {
             if (isfinite(lower)) bottom += (double)lower, bottom_count++;
         }
         assert_true(bottom / bottom_count > top / top_count);
-        ewa_image_free(&image);
     }
 }
 
@@ -131,14 +124,11 @@ TEST(test_failing_allocations) {
     scratch_fail_each(round_trip_work, (void *)(uintptr_t)scratch_path("memory.pfm", path));
 }
 
-TEST(test_unwritable) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_unwritable, 1) {
     float pixels[3] = {0};
     const ewa_image image = {context, 1, 1, 3, pixels};
     assert_int_equal(ewa_image_save(&image, "/nowhere/x.pfm", NULL), EWA_ERROR_IO);
-    assert_non_null(strstr(log.text, "/nowhere/x.pfm"));
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "/nowhere/x.pfm"));
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -45,7 +45,7 @@ CASE(test_every_type_in_every_encoding) {
                     sample_number(&s, EWA_F32, -i);
                     sample_record_end(&s);
                 }
-                ewa_cloud *cloud;
+                OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
                 assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
                 assert_int_equal(ewa_cloud_point_count(cloud), 4);
                 assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
@@ -56,7 +56,6 @@ CASE(test_every_type_in_every_encoding) {
                     assert_same_bits(sample_value(cloud, "value", (ewa_type)type, 1, i, 0),
                                      type_values[type][i]);
                 }
-                ewa_cloud_destroy(&cloud);
             }
     assert_int_equal(messages.count, 0);
 }
@@ -81,7 +80,7 @@ CASE(test_positions_are_exact) {
                     sample_number(&s, (ewa_type)type, type_values[type][3 - i]);
                     sample_record_end(&s);
                 }
-                ewa_cloud *cloud;
+                OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
                 assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
                 for (int i = 0; i < 4; i++) {
                     assert_same_bits(sample_value(cloud, "position", expected[type], 3, i, 0),
@@ -90,7 +89,6 @@ CASE(test_positions_are_exact) {
                     assert_same_bits(sample_value(cloud, "position", expected[type], 3, i, 2),
                                      type_values[type][3 - i]);
                 }
-                ewa_cloud_destroy(&cloud);
             }
 }
 
@@ -140,13 +138,12 @@ CASE(test_any_order_of_properties) {
                 sample_number(&s, parts[order[i]].type, (order[i] * 7 + point) % 256);
             sample_record_end(&s);
         }
-        ewa_cloud *cloud;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
         assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
         for (int point = 0; point < POINTS; point++)
             for (int i = 0; i < PARTS; i++)
                 assert_true(sample_value(cloud, parts[i].attribute, parts[i].type, parts[i].components, point,
                                          parts[i].component) == (i * 7 + point) % 256);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -165,7 +162,7 @@ static ewa_cloud *load_counting(const char *properties) {
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 
 CASE(test_other_names_of_attributes) {
-    ewa_cloud *cloud =
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud =
         load_counting(XYZ "property float normal_x\nproperty float normal_y\nproperty float normal_z\n"
                           "property uchar diffuse_red\nproperty uchar diffuse_green\n"
                           "property uchar diffuse_blue\nproperty float psz\n");
@@ -181,7 +178,6 @@ CASE(test_other_names_of_attributes) {
         XYZ "property double nx\nproperty double ny\nproperty double nz\nproperty double radius\n");
     assert_true(sample_value(cloud, "normal", EWA_F32, 3, 0, 0) == 4);
     assert_true(sample_value(cloud, "radius", EWA_F32, 1, 0, 0) == 7);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_types_of_colors) {
@@ -202,7 +198,7 @@ CASE(test_types_of_colors) {
             sample_line(&s, "end_header");
             for (int c = 0; c < 3; c++) sample_number(&s, EWA_F32, 0);
             for (int c = 0; c < 3; c++) sample_number(&s, (ewa_type)type, type_values[type][c]);
-            ewa_cloud *cloud;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
             assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
             for (uint32_t c = 0; c < 3; c++) {
                 const double value = type_values[type][c];
@@ -212,7 +208,6 @@ CASE(test_types_of_colors) {
                                  : expected[type] == EWA_U8 ? clamped
                                                             : value);
             }
-            ewa_cloud_destroy(&cloud);
         }
 }
 
@@ -236,7 +231,7 @@ CASE(test_incomplete_groups_stay_scalars) {
 }
 
 CASE(test_names_that_no_attribute_can_have) {
-    ewa_cloud *cloud = load_counting(XYZ "property float color\nproperty float intensity\n");
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = load_counting(XYZ "property float color\nproperty float intensity\n");
     assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
     assert_true(sample_value(cloud, "intensity", EWA_F32, 1, 0, 0) == 5);
     assert_string_equal(messages.text,
@@ -254,7 +249,6 @@ CASE(test_names_that_no_attribute_can_have) {
                              "e",
                              EWA_F32, 1, 0, 0) == 7);
     assert_int_equal(messages.count, 3);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_elements_and_lists_around_the_vertices) {
@@ -293,7 +287,7 @@ CASE(test_elements_and_lists_around_the_vertices) {
             sample_number(&s, EWA_I32, edge + 1);
             sample_record_end(&s);
         }
-        ewa_cloud *cloud;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
         assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
         assert_int_equal(ewa_cloud_point_count(cloud), 300);
         assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
@@ -302,7 +296,6 @@ CASE(test_elements_and_lists_around_the_vertices) {
                 assert_true(sample_value(cloud, "position", EWA_F32, 3, point, c) == 3 * point + (int)c);
             assert_true(sample_value(cloud, "last", EWA_U8, 1, point, 0) == point % 256);
         }
-        ewa_cloud_destroy(&cloud);
     }
     assert_int_equal(messages.count, 0);
 }
@@ -324,12 +317,11 @@ CASE(test_line_ends) {
                 for (int c = 0; c < 3; c++) sample_number(&s, EWA_U8, c == 1 ? 13 : 10);
                 sample_record_end(&s);
             }
-            ewa_cloud *cloud;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
             assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
             for (int i = 0; i < 2; i++)
                 for (uint32_t c = 0; c < 3; c++)
                     assert_true(sample_value(cloud, "position", EWA_F32, 3, i, c) == (c == 1 ? 13 : 10));
-            ewa_cloud_destroy(&cloud);
         }
 }
 
@@ -352,18 +344,17 @@ CASE(test_ascii_layouts) {
     };
     for (size_t i = 0; i < sizeof layouts / sizeof layouts[0]; i++) {
         messages.count = 0;
-        ewa_cloud *cloud;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
         assert_int_equal(sample_load_text(context, layouts[i].text, &cloud), EWA_OK);
         for (int k = 0; k < 9; k++)
             assert_true(sample_value(cloud, "position", EWA_F32, 3, (uint64_t)k / 3, (uint32_t)k % 3) ==
                         k + 1);
         assert_int_equal(messages.count, layouts[i].warns);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 CASE(test_ascii_words_and_integers) {
-    ewa_cloud *cloud;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
     assert_int_equal(sample_load_text(context,
                                       "ply\nformat ascii 1.0\nelement vertex 2\n" XYZ
                                       "property uchar u\nproperty int i\n"
@@ -377,7 +368,6 @@ CASE(test_ascii_words_and_integers) {
     assert_true(sample_value(cloud, "position", EWA_F32, 3, 1, 2) == (double)INFINITY);
     assert_true(sample_value(cloud, "u", EWA_U8, 1, 0, 0) == 255);
     assert_true(sample_value(cloud, "i", EWA_I32, 1, 0, 0) == -2e9);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Many lines, so that chunks and blocks have seams, some of them after a blank line.
@@ -412,8 +402,8 @@ CASE(test_long_ascii) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         sample s = make_long_ascii(POINTS, cases[i].blank_after, cases[i].line_end);
         for (uint32_t threads = 1; threads <= 7; threads += 6) {
-            ewa_context *own = check_context(threads, &messages);
-            ewa_cloud *cloud;
+            OWNED(ewa_context_destroy) ewa_context *own = check_context(threads, &messages);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
             assert_int_equal(sample_load_bytes(own, s.bytes, s.size, &cloud), EWA_OK);
             double values[3];
             const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
@@ -423,8 +413,6 @@ CASE(test_long_ascii) {
                     values[2] != (double)k / 7)
                     fail_msg("point %llu is wrong", (unsigned long long)k);
             }
-            ewa_cloud_destroy(&cloud);
-            ewa_context_destroy(&own);
         }
         free(s.bytes);
     }
@@ -436,11 +424,10 @@ CASE(test_empty_cloud) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(&s, "element vertex 0\n" XYZ "end_header");
         if (encoding) sample_text(&s, "\n");
-        ewa_cloud *cloud;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
         assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
         assert_int_equal(ewa_cloud_point_count(cloud), 0);
         assert_non_null(ewa_cloud_find(cloud, EWA_POSITION));
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -450,7 +437,7 @@ CASE(test_real_models) {
     for (size_t i = 0; i < sizeof model_facts / sizeof model_facts[0]; i++) {
         char path[512];
         if (!check_data(model_facts[i].path, path, sizeof path)) skip();
-        ewa_cloud *cloud;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
         assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
         ewa_bounds bounds;
         assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
@@ -460,21 +447,18 @@ CASE(test_real_models) {
                 fabs(bounds.high_world[c] - model_facts[i].high[c]) > 1e-5 * fabs(model_facts[i].high[c]))
                 fail_msg("%s: %g to %g on axis %d", model_facts[i].path, bounds.low_world[c],
                          bounds.high_world[c], c);
-        ewa_cloud_destroy(&cloud);
     }
     assert_int_equal(messages.count, 0);
 }
 
 CASE(test_one_model_in_both_byte_orders) {
     char path[512];
-    ewa_cloud *little, *big;
+    OWNED(ewa_cloud_destroy) ewa_cloud *little, *big;
     if (!check_data("models/variants/dolphins_le.ply", path, sizeof path)) skip();
     assert_int_equal(ewa_cloud_load(context, path, &little), EWA_OK);
     if (!check_data("models/variants/dolphins_be.ply", path, sizeof path)) skip();
     assert_int_equal(ewa_cloud_load(context, path, &big), EWA_OK);
     assert_same_cloud(little, big);
-    ewa_cloud_destroy(&little);
-    ewa_cloud_destroy(&big);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -155,7 +155,7 @@ CASE(test_lying_counts) {
 }
 
 CASE(test_warnings_about_the_rest) {
-    ewa_cloud *cloud;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
     assert_int_equal(
         sample_load_text(context,
                          BINARY VERTEX_1
@@ -171,7 +171,6 @@ CASE(test_warnings_about_the_rest) {
     assert_int_equal(sample_load_text(context, BINARY VERTEX_1 "end_header\n123456789012and more", &cloud),
                      EWA_OK);
     assert_int_equal(messages.count, 0);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_limits) {
@@ -244,7 +243,7 @@ CASE(test_every_truncation) {
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
             sample s = make_rich((ewa_ply_encoding)encoding, lists);
-            ewa_cloud *cloud;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
             for (size_t size = 0; size < s.size; size++) {
                 messages.count = 0;
                 const ewa_status status = sample_load_bytes(context, s.bytes, size, &cloud);
@@ -257,7 +256,6 @@ CASE(test_every_truncation) {
                 ewa_cloud_destroy(&cloud);
             }
             assert_int_equal(sample_load(context, &s, &cloud), EWA_OK);
-            ewa_cloud_destroy(&cloud);
         }
 }
 
@@ -330,11 +328,10 @@ static bool cancel_now(void *user, const char *stage, double fraction) {
 CASE(test_cancelling) {
     for (int encoding = 0; encoding < 3; encoding++) {
         int calls_left = 1;
-        ewa_context *own = check_context_telling(0, cancel_now, &calls_left);
+        OWNED(ewa_context_destroy) ewa_context *own = check_context_telling(0, cancel_now, &calls_left);
         sample s = make_rich((ewa_ply_encoding)encoding, encoding == 0);
         ewa_cloud *cloud;
         assert_int_equal(sample_load(own, &s, &cloud), EWA_CANCELLED);
-        ewa_context_destroy(&own);
     }
 }
 

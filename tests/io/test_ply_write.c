@@ -101,13 +101,12 @@ TEST_WITHIN(test_round_trips_are_exact, set_up, tear_down) {
     for (int encoding = 0; encoding < 3; encoding++)
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 4; k++) {
+                OWNED(ewa_cloud_destroy)
                 ewa_cloud *cloud = make_everything(context, counts[k], i == 1 ? EWA_F64 : EWA_F32, colors[i]),
                           *back;
                 assert_int_equal(save_as(cloud, path, encoding), EWA_OK);
                 assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
                 assert_same_cloud(cloud, back);
-                ewa_cloud_destroy(&cloud);
-                ewa_cloud_destroy(&back);
             }
     assert_int_equal(messages.count, 0);
     assert_int_equal(count_files(false), 1);
@@ -118,14 +117,12 @@ TEST_WITHIN(test_bits_of_nan_survive_in_binary, set_up, tear_down) {
     inside("nan.ply", path);
     for (int encoding = 0; encoding < 2; encoding++) {
         const uint32_t bits[3] = {0x7fc12345, 0xffc00001, 0x7f800001};
-        ewa_cloud *cloud, *back;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud, *back;
         assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, bits, 0), EWA_OK);
         assert_int_equal(save_as(cloud, path, encoding), EWA_OK);
         assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
         assert_memory_equal(ewa_cloud_find(back, EWA_POSITION)->data, bits, sizeof bits);
-        ewa_cloud_destroy(&cloud);
-        ewa_cloud_destroy(&back);
     }
 }
 
@@ -148,7 +145,7 @@ TEST_WITHIN(test_text_that_is_written, set_up, tear_down) {
     } vertices[2] = {{{0, -1.5f, 0.1f}, {255, 0, 7}, 9, {1e-7, 3}, -5},
                      {{1e20f, 2, 3}, {1, 2, 3}, 9, {0.25, -0.0}, 2000000000}};
     char path[128];
-    ewa_cloud *cloud;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud;
     assert_int_equal(ewa_cloud_create(context, 2, &cloud), EWA_OK);
     ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, vertices[0].position, sizeof vertices[0]);
     ewa_cloud_borrow(cloud, EWA_COLOR, EWA_U8, 3, vertices[0].color, sizeof vertices[0]);
@@ -161,7 +158,6 @@ TEST_WITHIN(test_text_that_is_written, set_up, tear_down) {
         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
         "property double pair_0\nproperty double pair_1\nproperty int my_label\nend_header\n"
         "0 -1.5 0.1 255 0 7 1e-7 3 -5\n1e20 2 3 1 2 3 0.25 -0 2000000000\n");
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_origin_gives_doubles, set_up, tear_down) {
@@ -170,7 +166,7 @@ TEST_WITHIN(test_origin_gives_doubles, set_up, tear_down) {
     for (int encoding = 0; encoding < 3; encoding++)
         for (int wide = 0; wide < 2; wide++) {
             enum { POINTS = 700 };
-            ewa_cloud *cloud, *back;
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud, *back;
             void *data;
             const double origin[3] = {431000.25, 5812000.5, -17};
             assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
@@ -187,8 +183,6 @@ TEST_WITHIN(test_origin_gives_doubles, set_up, tear_down) {
             for (int i = 0; i < 3 * POINTS; i++)
                 assert_true(sample_value(back, EWA_POSITION, EWA_F64, 3, (uint64_t)i / 3, (uint32_t)i % 3) ==
                             (wide ? i / 3.0 : (double)((float)i / 3)) + origin[i % 3]);
-            ewa_cloud_destroy(&cloud);
-            ewa_cloud_destroy(&back);
         }
 }
 

@@ -36,11 +36,11 @@ TEST_ON(test_save_and_load, 2) {
             if (channels == 2) continue;
             const uint32_t width = sizes[s][0], height = sizes[s][1];
             const size_t stride = (size_t)width * channels + 13;
-            uint8_t *codes = make_codes(width, height, channels), *rows = calloc(height, stride);
+            OWNED(check_free) uint8_t *codes = make_codes(width, height, channels), *rows = calloc(height, stride);
             for (uint32_t y = 0; y < height; y++)
                 memcpy(rows + y * stride, codes + (size_t)y * width * channels, (size_t)width * channels);
             assert_int_equal(ewa_png_save(context, path, width, height, channels, rows, stride), EWA_OK);
-            ewa_image image;
+            OWNED(ewa_image_free) ewa_image image;
             assert_int_equal(ewa_image_load(context, path, &image), EWA_OK);
             assert_int_equal(image.width_px, width);
             assert_int_equal(image.height_px, height);
@@ -50,9 +50,6 @@ TEST_ON(test_save_and_load, 2) {
                 const bool is_alpha = channels == 4 && i % 4 == 3;
                 assert_true(image.pixels[i] == (is_alpha ? alpha : ewa_srgb_decoded[codes[i]] * alpha));
             }
-            ewa_image_free(&image);
-            free(codes);
-            free(rows);
         }
     }
 }
@@ -60,11 +57,11 @@ TEST_ON(test_save_and_load, 2) {
 TEST(test_same_file_for_any_thread_count) {
     enum { WIDTH = 700, HEIGHT = 900 };
     static const uint32_t threads[] = {1, 2, 7, 32};
-    uint8_t *codes = make_codes(WIDTH, HEIGHT, 3), *first = NULL;
+    OWNED(check_free) uint8_t *codes = make_codes(WIDTH, HEIGHT, 3), *first = NULL;
     size_t first_bytes = 0;
     char path[512];
     for (size_t t = 0; t < 4; t++) {
-        ewa_context *context = check_context(threads[t], NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[t], NULL);
         scratch_path("threads.png", path);
         assert_int_equal(ewa_png_save(context, path, WIDTH, HEIGHT, 3, codes, 3 * WIDTH), EWA_OK);
         size_t size_bytes;
@@ -77,16 +74,13 @@ TEST(test_same_file_for_any_thread_count) {
             first = bytes;
             first_bytes = size_bytes;
         }
-        ewa_context_destroy(&context);
     }
-    free(first);
-    free(codes);
 }
 
 TEST_ON(test_float_to_codes, 1) {
     char path[512];
     scratch_path("float.png", path);
-    ewa_image image, back;
+    OWNED(ewa_image_free) ewa_image image, back;
     assert_int_equal(ewa_image_create(context, 4, 1, 4, &image), EWA_OK);
     const float pixels[16] = {0.25f, 0.5f, 0, 0.5f, // half transparent: straight (0.5, 1, 0)
                               0,     0,    0, 0,    // nothing
@@ -115,8 +109,6 @@ TEST_ON(test_float_to_codes, 1) {
     assert_int_equal(ewa_image_save(&image, path, NULL), EWA_OK);
     assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
     assert_int_equal(back.channel_count, 3);
-    ewa_image_free(&back);
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_head_says_srgb, 1) {
@@ -124,19 +116,17 @@ TEST_ON(test_head_says_srgb, 1) {
     const uint8_t code = 77;
     assert_int_equal(ewa_png_save(context, scratch_path("head.png", path), 1, 1, 1, &code, 1), EWA_OK);
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0", 29);
     assert_memory_equal(bytes + 33, "\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
-    free(bytes);
 }
 
 static void load_good(void *user, const char *path) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     if (ewa_image_load(user, path, &image) != EWA_OK) fail_msg("%s did not load", path);
     assert_true(image.width_px > 0 && image.pixels);
     for (size_t i = 0; i < (size_t)image.width_px * image.height_px * image.channel_count; i++)
         assert_true(image.pixels[i] >= 0 && image.pixels[i] <= 1);
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_pngsuite, 1) {
@@ -179,23 +169,20 @@ TEST(test_hostile) {
     ewa_context_destroy(&t.context);
 }
 
-TEST(test_every_truncation_is_refused) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_truncation_is_refused, 1) {
     char path[512];
-    uint8_t *codes = make_codes(12, 9, 4);
+    OWNED(check_free) uint8_t *codes = make_codes(12, 9, 4);
     assert_int_equal(ewa_png_save(context, scratch_path("whole.png", path), 12, 9, 4, codes, 48), EWA_OK);
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
-    ewa_image image;
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(ewa_image_free) ewa_image image;
     // libspng takes the end chunk without its checksum.
     for (size_t length = 0; length < size_bytes - 4; length++) {
         uint8_t *copy = malloc(length + 1); // of its own size, so that a sanitizer sees reads beyond
         memcpy(copy, bytes, length);
-        uint8_t *exact = realloc(copy, length ? length : 1);
+        OWNED(check_free) uint8_t *exact = realloc(copy, length ? length : 1);
         assert_int_equal(ewa_image_load_memory(context, exact, length, "cut.png", &image), EWA_ERROR_FORMAT);
-        assert_memory_equal(log.text, "cut.png: ", 9);
-        free(exact);
+        assert_memory_equal(log->text, "cut.png: ", 9);
     }
     for (size_t at = 0; at < size_bytes; at++) { // a flipped byte is refused or changes metadata only
         bytes[at] ^= 0x55;
@@ -204,10 +191,6 @@ TEST(test_every_truncation_is_refused) {
         bytes[at] ^= 0x55;
     }
     assert_int_equal(ewa_image_load_memory(context, bytes, size_bytes, "whole.png", &image), EWA_OK);
-    ewa_image_free(&image);
-    free(bytes);
-    free(codes);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_limits_come_before_memory) {
@@ -217,7 +200,7 @@ TEST(test_limits_come_before_memory) {
     options.message_user = &log;
     options.limits.max_image_side = 600;
     options.limits.max_memory_bytes = 100000;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     // 601 x 1 pixels, then 500 x 500, then 599 x 599 of 64 bits, all in 57 bytes.
     const uint32_t sizes[3][2] = {{601, 1}, {500, 500}, {599, 599}};
@@ -236,12 +219,9 @@ TEST(test_limits_come_before_memory) {
         assert_int_equal(status, i == 2 ? EWA_ERROR_FORMAT : EWA_ERROR_LIMIT);
         assert_non_null(strstr(log.text, i == 0 ? "601 x 1" : i == 1 ? "need" : "cannot hold"));
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_arguments) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_arguments, 1) {
     char path[512];
     scratch_path("never.png", path);
     remove(path);
@@ -251,29 +231,26 @@ TEST(test_arguments) {
     assert_int_equal(ewa_png_save(context, path, 0, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
     assert_int_equal(access(path, F_OK), -1);
     assert_int_equal(ewa_png_save(context, "/nowhere/x.png", 2, 2, 3, codes, 6), EWA_ERROR_IO);
-    assert_non_null(strstr(log.text, "/nowhere/x.png"));
+    assert_non_null(strstr(log->text, "/nowhere/x.png"));
     assert_int_equal(ewa_png_save(context, "/dev/full", 2, 2, 3, codes, 6), EWA_ERROR_IO);
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 2, 2, 3, &image), EWA_OK);
     assert_int_equal(ewa_image_save(&image, scratch_path("picture.gif", path), NULL), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "picture.gif"));
+    assert_non_null(strstr(log->text, "picture.gif"));
     ewa_image_free(&image);
     assert_int_equal(ewa_image_load(context, "/nowhere/x.png", &image), EWA_ERROR_IO);
     assert_int_equal(ewa_image_load_memory(context, "GIF89a", 6, "x.gif", &image), EWA_ERROR_FORMAT);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status save_work(ewa_context *context, void *user) {
-    uint8_t *codes = make_codes(100, 3000, 3);
+    OWNED(check_free) uint8_t *codes = make_codes(100, 3000, 3);
     const ewa_status status = ewa_png_save(context, user, 100, 3000, 3, codes, 300);
-    free(codes);
     return status;
 }
 
 static ewa_status load_work(ewa_context *context, void *user) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     const ewa_status status = ewa_image_load(context, user, &image);
-    ewa_image_free(&image);
     return status;
 }
 
@@ -303,7 +280,7 @@ static double processor_time_s(void) {
 /// Not a check: prints how much processor time a picture of 1280 x 1024 takes, with `--bench`.
 static void bench(void) {
     enum { WIDTH = 1280, HEIGHT = 1024 };
-    uint8_t *codes = malloc(3 * WIDTH * HEIGHT);
+    OWNED(check_free) uint8_t *codes = malloc(3 * WIDTH * HEIGHT);
     char path[512];
     scratch_path("bench.png", path);
     for (int kind = 0; kind < 4; kind++) {
@@ -326,7 +303,7 @@ static void bench(void) {
                 }
             }
         for (uint32_t threads = 1; threads <= 2; threads++) {
-            ewa_context *context = check_context(threads, NULL);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
             double best_s = 1e9;
             for (int round = 0; round < 15; round++) {
                 const double start_s = processor_time_s();
@@ -337,10 +314,8 @@ static void bench(void) {
             stat(path, &facts);
             printf("%-22s %u threads %6.2f ms %8ld bytes\n", names[kind], threads, 1e3 * best_s,
                    (long)facts.st_size);
-            ewa_context_destroy(&context);
         }
     }
-    free(codes);
 }
 
 int main(int argument_count, char **arguments) {

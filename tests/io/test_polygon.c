@@ -11,19 +11,18 @@
 static ewa_status read_text(const char *text, ewa_polygon **polygon) {
     // From memory that ends with the text, so that a sanitizer sees a step too far.
     const size_t length = strlen(text);
-    char *copy = malloc(length + 1);
+    OWNED(check_free) char *copy = malloc(length + 1);
     assert_non_null(copy);
     char *exact = copy + 1;
     memcpy(exact, text, length);
     const ewa_status status = ewa_polygon_read(context, "outline", exact, length, polygon);
-    free(copy);
     return status;
 }
 
 /// Which of 11 x 11 places are inside, row by row from the lowest, as text.
 static void draw(const ewa_polygon *polygon, char picture[11 * 12 + 1]) {
     void *data;
-    ewa_cloud *cloud = check_cloud_of(context, 121);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 121);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     const double origin[3] = {500000, 4200000, 0};
     ewa_cloud_set_origin(cloud, origin);
@@ -41,7 +40,6 @@ static void draw(const ewa_polygon *polygon, char picture[11 * 12 + 1]) {
         if (i % 11 == 10) picture[used++] = '\n';
     }
     picture[used] = 0;
-    ewa_cloud_destroy(&cloud);
 }
 
 static const char square_with_hole[] = "...........\n"
@@ -80,7 +78,7 @@ TEST(test_forms) {
         "[[3,3],[6,3],[6,6],[3,6]]]]}]}}]}",
     };
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-        ewa_polygon *polygon = NULL;
+        OWNED(ewa_polygon_destroy) ewa_polygon *polygon = NULL;
         if (read_text(texts[k], &polygon) != EWA_OK) fail_msg("%s: %s", texts[k], messages.text);
         char picture[11 * 12 + 1];
         draw(polygon, picture);
@@ -89,7 +87,6 @@ TEST(test_forms) {
         double box[4];
         ewa_polygon_box(polygon, box);
         assert_true(box[0] == 1 && box[1] == 1 && box[2] == 8 && box[3] == 8);
-        ewa_polygon_destroy(&polygon);
     }
 }
 
@@ -135,16 +132,14 @@ TEST(test_truncations) {
     };
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++)
         for (size_t length = 0; length <= strlen(texts[k]); length++) {
-            char *exact = malloc(length ? length : 1);
+            OWNED(check_free) char *exact = malloc(length ? length : 1);
             assert_non_null(exact);
             memcpy(exact, texts[k], length);
-            ewa_polygon *polygon = NULL;
+            OWNED(ewa_polygon_destroy) ewa_polygon *polygon = NULL;
             messages.count = 0;
             const ewa_status status = ewa_polygon_read(context, "outline", exact, length, &polygon);
             assert_true((status == EWA_OK) == (polygon != NULL) &&
                         (status == EWA_OK) == (messages.count == 0));
-            ewa_polygon_destroy(&polygon);
-            free(exact);
         }
 }
 
@@ -160,11 +155,11 @@ TEST(test_many_corners) {
             corners[2 * i] = 500000 + radius * cos(angle);
             corners[2 * i + 1] = 4200000 + radius * sin(angle);
         }
-        ewa_polygon *polygon = NULL;
+        OWNED(ewa_polygon_destroy) ewa_polygon *polygon = NULL;
         const uint32_t ring = CORNERS;
         assert_int_equal(ewa_polygon_create(context, corners, &ring, 1, &polygon), EWA_OK);
         void *data;
-        ewa_cloud *cloud = check_cloud_of(context, POINTS);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, POINTS);
         assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
         double *p = data;
         for (int i = 0; i < POINTS; i++) {
@@ -188,8 +183,6 @@ TEST(test_many_corners) {
             inside_count += inside;
         }
         assert_in_range(inside_count, 200, 2000);
-        ewa_cloud_destroy(&cloud);
-        ewa_polygon_destroy(&polygon);
     }
 }
 

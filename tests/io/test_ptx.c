@@ -9,6 +9,7 @@
 #define TURNED "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n"
 
 TEST_WITHIN(test_scans, set_up, tear_down) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = rows_load("2\n2\n" STILL "1 2 3 0.5\n0 0 0 0.5\n4 5 6 0.25\n-1 0 0 1\n"
                                  "1\n2\n" TURNED "1 2 3 0.125 255 7 0\n4 5 6 0 1 2 3\n");
     rows_expect(cloud, 5, "position,intensity,color,scan");
@@ -24,10 +25,10 @@ TEST_WITHIN(test_scans, set_up, tear_down) {
     assert_true(rows_number(cloud, "scan", 2, 0) == 0 && rows_number(cloud, "scan", 3, 0) == 1);
     assert_true(rows_number(cloud, EWA_COLOR, 3, 0) == 255 && rows_number(cloud, EWA_COLOR, 4, 2) == 3);
     assert_string_equal(ewa_cloud_note(cloud, "scanners", NULL), "0 0 0\n10 20 30\n");
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_places, set_up, tear_down) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *far = rows_load("1\r\n3\r\n" STILL
                                "4200000.125 5200007.3 1 0.5\r\n0 0 0 0.5\r\n4200001.1 5200000.7 2 1\r\n"),
               *near = rows_load("1\n3\n" STILL "0.125 7.3 1 0.5\n0 0 0 0.5\n1.1 0.7 2 1");
@@ -42,8 +43,6 @@ TEST_WITHIN(test_places, set_up, tear_down) {
         "1\n3\n4200000 5200000 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n4200000 5200000 0 1\n"
         "0.125 7.3 1 0.5\n0 0 0 0.5\n1.1 0.7 2 1");
     rows_expect_same(far, near);
-    ewa_cloud_destroy(&far);
-    ewa_cloud_destroy(&near);
 }
 
 TEST_WITHIN(test_damage, set_up, tear_down) {
@@ -66,14 +65,13 @@ TEST_WITHIN(test_damage, set_up, tear_down) {
 TEST_WITHIN(test_keep_going, set_up, tear_down) {
     WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     uint64_t lost_count = 0;
     assert_int_equal(
         rows_read("2\n2\n" STILL "1 2 3 0.5\n1 2 x 0.5\n4 5 6 1\n", &options, &cloud, &lost_count), EWA_OK);
     assert_int_equal(lost_count, 2); // a line that is damaged, and one that is not there
     rows_expect(cloud, 2, "position,intensity");
     rows_expect_world(cloud, 1, 4, 5, 6);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_truncation, set_up, tear_down) {
@@ -82,23 +80,21 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
     const size_t length = strlen(text),
                  first_length = strlen("1\n2\n" STILL "1 2 3 0.5 1 2 3\n4 5 6 0.25 4 5 6\n");
     for (size_t cut = 0; cut < length; cut++) {
-        char *part = malloc(cut + 1);
+        OWNED(check_free) char *part = malloc(cut + 1);
         assert_non_null(part);
         memcpy(part, text, cut);
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         const ewa_status status = ewa_cloud_load_memory(context, cut ? part : "", cut, "t", &cloud);
         // Only without the final line feed, or behind a scan, all points are there.
         const bool whole = cut + 1 >= length || cut == first_length || cut == first_length - 1;
         if (whole) assert_int_equal(status, EWA_OK);
         if (!whole && cut + 1 < length) assert_int_not_equal(status, EWA_OK);
-        ewa_cloud_destroy(&cloud);
-        free(part);
     }
 }
 
 TEST_WITHIN(test_threads, set_up, tear_down) {
     enum { POINTS = 20000, BYTES = 64 };
-    char *text = malloc(POINTS * BYTES);
+    OWNED(check_free) char *text = malloc(POINTS * BYTES);
     assert_non_null(text);
     size_t length = (size_t)snprintf(text, BYTES, "200\n100\n");
     length += (size_t)snprintf(text + length, 200, "%s", TURNED);
@@ -109,7 +105,7 @@ TEST_WITHIN(test_threads, set_up, tear_down) {
         length += (size_t)(nothing ? snprintf(text + length, BYTES, "0 0 0 0.5\n")
                                    : snprintf(text + length, BYTES, "%d.%d 1 2 0.25\n", i, i % 10));
     }
-    ewa_cloud *whole = rows_load(text);
+    OWNED(ewa_cloud_destroy) ewa_cloud *whole = rows_load(text);
     rows_expect(whole, expected, "position,intensity");
     ewa_context *first = context;
     context = check_context(5, NULL);
@@ -118,8 +114,6 @@ TEST_WITHIN(test_threads, set_up, tear_down) {
     ewa_cloud_destroy(&other);
     ewa_context_destroy(&context);
     context = first;
-    ewa_cloud_destroy(&whole);
-    free(text);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

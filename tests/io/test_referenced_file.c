@@ -134,7 +134,7 @@ TEST(test_base64) {
                  {"+/+/", "\xfb\xff\xbf"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const size_t length = strlen(cases[i].letters), room = ewa_base64_room(length);
-        uint8_t *bytes = malloc(room);
+        OWNED(check_free) uint8_t *bytes = malloc(room);
         assert_non_null(bytes);
         size_t used = 99;
         const size_t size = ewa_base64_read(cases[i].letters, length, 0, bytes, room, &used);
@@ -143,7 +143,6 @@ TEST(test_base64) {
             assert_int_equal(size, strlen(cases[i].bytes));
             assert_memory_equal(bytes, cases[i].bytes, size);
         }
-        free(bytes);
     }
 }
 

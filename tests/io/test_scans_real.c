@@ -54,7 +54,7 @@ CASE(test_counts_boxes_and_attributes) {
         char relative[128], path[512];
         snprintf(relative, sizeof relative, "clouds/%s", files[i].path);
         if (!check_data(relative, path, sizeof path)) skip();
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         ewa_bounds box;
         assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
         if (ewa_cloud_point_count(cloud) != files[i].point_count)
@@ -71,14 +71,13 @@ CASE(test_counts_boxes_and_attributes) {
         if (files[i].attribute && (!attribute || attribute->type != files[i].type ||
                                    attribute->component_count != files[i].component_count))
             fail_msg("%s: %s", path, files[i].attribute);
-        ewa_cloud_destroy(&cloud);
     }
     assert_string_equal(messages.text, "");
 }
 
 CASE(test_spherical_and_empty) {
     char path[512];
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     if (!check_data("clouds/e57/tiny_spherical.e57", path, sizeof path)) skip();
     assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(cloud), 180); // of 360, every other one is invalid
@@ -91,7 +90,6 @@ CASE(test_spherical_and_empty) {
     assert_non_null(check_data("clouds/e57/empty_pc.e57", path, sizeof path));
     assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(cloud), 0);
-    ewa_cloud_destroy(&cloud);
 }
 
 CASE(test_broken) {
@@ -105,13 +103,12 @@ CASE(test_broken) {
         char relative[128], path[512];
         snprintf(relative, sizeof relative, "hostile/%s", files[i].path);
         if (!check_data(relative, path, sizeof path)) skip();
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         messages = (check_log){0};
         const ewa_status status = ewa_cloud_load(context, path, &cloud);
         if ((status == EWA_OK) != !files[i].message ||
             (files[i].message && !strstr(messages.text, files[i].message)))
             fail_msg("%s: '%s'", path, messages.text);
-        ewa_cloud_destroy(&cloud);
     }
 }
 

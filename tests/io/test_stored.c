@@ -42,9 +42,9 @@ static void check_bare(const ewa_deflated *packed, const uint8_t *bytes, size_t 
 
 TEST(reads_back) {
     static const int windows[] = {[EWA_DEFLATE_BARE] = -15, [EWA_DEFLATE_ZLIB] = 15, [EWA_DEFLATE_GZIP] = 31};
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
-    uint8_t *bytes = make_bytes(), *back = malloc(MAX_BYTES);
+    OWNED(check_free) uint8_t *bytes = make_bytes(), *back = malloc(MAX_BYTES);
     assert_non_null(back);
     for (int frame = EWA_DEFLATE_BARE; frame <= EWA_DEFLATE_GZIP; frame++) {
         for (int i = 0; i < SIZES; i++) {
@@ -63,17 +63,13 @@ TEST(reads_back) {
             stored_free(context, &packed);
         }
     }
-    free(back);
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
 TEST(checksum_is_the_same) {
-    uint8_t *bytes = make_bytes();
+    OWNED(check_free) uint8_t *bytes = make_bytes();
     for (int i = 0; i < SIZES; i++) assert_int_equal(stored_crc32(0, bytes, sizes[i]), ewa_crc32(0, bytes, sizes[i]));
     assert_int_equal(stored_crc32(stored_crc32(0, bytes, 1000), bytes + 1000, 2000), ewa_crc32(0, bytes, 3000));
     assert_int_equal(stored_crc32(0, "123456789", 9), 0xcbf43926u);
-    free(bytes);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -55,15 +55,15 @@ static void world_of(const ewa_cloud *cloud, uint64_t point, double world[3]) {
 CASE(test_pieces) {
     static const char *const suffixes[] = {".ply", ".las", ".laz", ".pcd", ".csv"};
     static const uint64_t sizes[] = {1, 7, 997, 5003, 100000};
-    ewa_cloud *scan = make_scan();
+    OWNED(ewa_cloud_destroy) ewa_cloud *scan = make_scan();
     for (size_t s = 0; s < sizeof suffixes / sizeof suffixes[0]; s++) {
         char name[64], whole_path[512], path[512];
         snprintf(name, sizeof name, "scan%s", suffixes[s]);
         scratch_path(name, whole_path);
         assert_int_equal(ewa_cloud_save(scan, whole_path, NULL), EWA_OK);
-        ewa_cloud *whole = load(whole_path);
+        OWNED(ewa_cloud_destroy) ewa_cloud *whole = load(whole_path);
         size_t whole_bytes;
-        uint8_t *whole_file = scratch_read(whole_path, &whole_bytes);
+        OWNED(check_free) uint8_t *whole_file = scratch_read(whole_path, &whole_bytes);
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
             if (sizes[k] == 1 && strcmp(suffixes[s], ".ply") != 0) continue;
             ewa_cloud_reader *reader = NULL;
@@ -85,10 +85,9 @@ CASE(test_pieces) {
             assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
             ewa_cloud_reader_close(&reader);
             size_t bytes;
-            uint8_t *file = scratch_read(path, &bytes);
+            OWNED(check_free) uint8_t *file = scratch_read(path, &bytes);
             assert_int_equal(bytes, whole_bytes);
             assert_memory_equal(file, whole_file, bytes);
-            free(file);
         }
         for (uint64_t i = 0; i < POINTS; i += 13) {
             double wanted[3], got[3];
@@ -96,10 +95,7 @@ CASE(test_pieces) {
             world_of(whole, i, got);
             assert_memory_equal(wanted, got, sizeof wanted);
         }
-        free(whole_file);
-        ewa_cloud_destroy(&whole);
     }
-    ewa_cloud_destroy(&scan);
 }
 
 /// What is held at most.
@@ -122,7 +118,7 @@ static void let_go(void *user, void *block, size_t size_bytes) {
 /// A file that is passed through needs memory for a piece, not for its points.
 CASE(test_memory) {
     enum { MANY = 400000, PIECE = 4096, MAX_BYTES = 3 << 20 };
-    ewa_cloud *cloud = check_cloud_of(context, MANY);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, MANY);
     float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     for (int i = 0; i < 3 * MANY; i++) position[i] = (float)(i % 1013) / 8;
     static const char *const suffixes[] = {".ply", ".las", ".pcd", ".xyz"};
@@ -163,7 +159,6 @@ CASE(test_memory) {
             if (memory.max_bytes > MAX_BYTES)
                 fail_msg("%s to %s: %zu bytes", suffixes[from], suffixes[to], memory.max_bytes);
         }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Only what is wanted is read, and positions always.
@@ -191,7 +186,7 @@ CASE(test_wanted) {
 /// A writer that was promised other points than it gets says so, and leaves nothing behind.
 CASE(test_promises) {
     char path[512];
-    ewa_cloud *scan = make_scan();
+    OWNED(ewa_cloud_destroy) ewa_cloud *scan = make_scan();
     scratch_path("promised.ply", path);
     unlink(path);
     ewa_cloud_writer *writer = NULL;
@@ -206,23 +201,20 @@ CASE(test_promises) {
     assert_int_equal(ewa_cloud_writer_put(writer, scan), EWA_ERROR_ARGUMENT);
     ewa_cloud_writer_abort(&writer);
     assert_int_not_equal(access(path, F_OK), 0);
-    ewa_cloud_destroy(&scan);
 }
 
 /// A number of points that is only known at the end is put where it belongs.
 CASE(test_unknown_count) {
     char path[512];
-    ewa_cloud *scan = make_scan();
+    OWNED(ewa_cloud_destroy) ewa_cloud *scan = make_scan();
     ewa_cloud_writer *writer = NULL;
     assert_int_equal(ewa_cloud_writer_open(context, scratch_path("unknown.ply", path), NULL, scan,
                                            EWA_POINTS_UNKNOWN, NULL, &writer),
                      EWA_OK);
     for (int i = 0; i < 3; i++) assert_int_equal(ewa_cloud_writer_put(writer, scan), EWA_OK);
     assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
-    ewa_cloud *back = load(path);
+    OWNED(ewa_cloud_destroy) ewa_cloud *back = load(path);
     assert_int_equal(ewa_cloud_point_count(back), 3 * POINTS);
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&scan);
 }
 
 /// Decimals are those that were there, also where the sum of two doubles is another double.
@@ -266,7 +258,7 @@ TEST(test_places) {
 
 /// Notes are copies, are replaced, removed, and handed on.
 CASE(test_notes) {
-    ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
     size_t size_bytes;
     assert_int_equal(ewa_cloud_set_note(scan, "file.what", "a\0b", 3), EWA_OK);
     assert_memory_equal(ewa_cloud_note(scan, "file.what", &size_bytes), "a\0b", 4);
@@ -295,9 +287,6 @@ CASE(test_notes) {
     assert_null(ewa_cloud_note(scan, "crs", NULL));
     assert_null(ewa_cloud_note_name(scan, 1));
     assert_int_equal(ewa_cloud_set_note(scan, "", "x", 1), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&both);
-    ewa_cloud_destroy(&some);
-    ewa_cloud_destroy(&scan);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -74,7 +74,7 @@ static void expect_tile(const ewa_model *model, double length, int hole) {
 
 TEST_WITHIN(test_codes, set_up, tear_down) {
     char path[512];
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     for (int heights = EWA_HEIGHTS_TERRAIN_RGB; heights <= EWA_HEIGHTS_TERRARIUM; heights++)
         for (int webp = 0; webp < 2; webp++)
             for (int hole = -1; hole < 2; hole++) {
@@ -95,7 +95,6 @@ TEST_WITHIN(test_codes, set_up, tear_down) {
     ewa_model_free(&model);
     assert_int_equal(load(path, EWA_HEIGHTS_TERRARIUM, &model), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(model.points), 2);
-    ewa_model_free(&model);
 }
 
 TEST_WITHIN(test_tiles, set_up, tear_down) {
@@ -112,18 +111,17 @@ TEST_WITHIN(test_tiles, set_up, tear_down) {
     };
     char path[512];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        ewa_model model;
+        OWNED(ewa_model_free) ewa_model model;
         write_tile(make_path(names[i].name, path), EWA_HEIGHTS_TERRARIUM, false, -1);
         assert_int_equal(load(path, EWA_HEIGHTS_TERRARIUM, &model), EWA_OK);
         if ((messages.count == 0) != (names[i].length > 0)) fail_msg("%s: %s", names[i].name, messages.text);
         expect_tile(&model, names[i].length > 0 ? names[i].length : 1, -1);
-        ewa_model_free(&model);
     }
 }
 
 TEST_WITHIN(test_refused, set_up, tear_down) {
     char path[512];
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     write_tile(scratch_path("heights", path), EWA_HEIGHTS_TERRARIUM, false, -1);
     assert_int_equal(load(path, EWA_HEIGHTS_NONE, &model), EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(messages.text, "a picture (PNG)"));
@@ -131,7 +129,6 @@ TEST_WITHIN(test_refused, set_up, tear_down) {
     scratch_write(path, "1 2 3\n4 5 6\n", 12);
     assert_int_equal(load(path, EWA_HEIGHTS_TERRARIUM, &model), EWA_OK);
     assert_int_equal(model.format, EWA_MODEL_TEXT);
-    ewa_model_free(&model);
 }
 
 TEST_WITHIN(test_truncation, set_up, tear_down) {
@@ -139,27 +136,24 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
     for (int webp = 0; webp < 2; webp++) {
         size_t size_bytes;
         write_tile(scratch_path("heights", path), EWA_HEIGHTS_TERRARIUM, webp, -1);
-        uint8_t *bytes = scratch_read(path, &size_bytes);
+        OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
         for (size_t cut = 0; cut < size_bytes; cut++) {
-            ewa_model model;
+            OWNED(ewa_model_free) ewa_model model;
             scratch_write(scratch_path("cut", cut_path), bytes, cut);
             // libspng needs no end of IEND, libwebp no byte that fills up.
             if (load(cut_path, EWA_HEIGHTS_TERRARIUM, &model) == EWA_OK && cut + 12 > size_bytes)
                 expect_tile(&model, 1, -1);
             else
                 assert_null(model.points);
-            ewa_model_free(&model);
         }
-        free(bytes);
     }
 }
 
 static ewa_status load_failing(ewa_context *failing, void *user) {
     WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.heights = EWA_HEIGHTS_TERRARIUM;
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     const ewa_status status = ewa_model_load(failing, user, EWA_MODEL_POINTS, &options, &model);
-    ewa_model_free(&model);
     return status;
 }
 

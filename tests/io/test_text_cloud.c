@@ -29,14 +29,13 @@ TEST_WITHIN(test_separators, set_up, tear_down) {
                                         "// X Y Z\n2\n1.5 2.5 3\n-4 5.25 6\n",
                                         "A scan of a thing\n1.5 2.5 3\n-4 5.25 6\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        ewa_cloud *cloud = rows_load(texts[i]);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(texts[i]);
         if (ewa_cloud_point_count(cloud) != 2)
             fail_msg("%d points of: %s", (int)ewa_cloud_point_count(cloud), texts[i]);
         rows_expect(cloud, 2, "position");
         rows_expect_world(cloud, 0, 1.5, 2.5, 3);
         rows_expect_world(cloud, 1, -4, 5.25, 6);
         rows_find(cloud, EWA_POSITION, EWA_F64, 3);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -49,11 +48,10 @@ TEST_WITHIN(test_utf16, set_up, tear_down) {
             wide[2 + 2 * i] = big ? 0 : text[i];
             wide[3 + 2 * i] = big ? text[i] : 0;
         }
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_load_memory(context, wide, 2 * sizeof text, "t", &cloud), EWA_OK);
         rows_expect(cloud, 2, "position");
         rows_expect_world(cloud, 0, 1.5, 2, 3);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -78,10 +76,9 @@ TEST_WITHIN(test_names, set_up, tear_down) {
          "position,tangent_u,tangent_v,radius"},
     };
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        ewa_cloud *cloud = rows_load(files[i].text);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(files[i].text);
         rows_expect(cloud, 1, files[i].names);
         rows_expect_world(cloud, 0, 1, 2, 3);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -104,13 +101,13 @@ TEST_WITHIN(test_numbers_without_names, set_up, tear_down) {
         {"1 2 3 900 255 0 7 11\n", "position,intensity,color,c8"},
     };
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        ewa_cloud *cloud = rows_load(files[i].text);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(files[i].text);
         rows_expect(cloud, ewa_cloud_point_count(cloud), files[i].names);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 TEST_WITHIN(test_types, set_up, tear_down) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = rows_load("x,y,z,intensity,classification,a1,a2,a3,a4,a5,a6,a7,gps_time,a8\n"
                                  "1,2,3,5,2.000,255,256,-1,70000,0.25,0.1234567,123456789,1,1e3\n"
                                  "1,2,3,65535,6.000,0,0,300,0,12.125,0.5,0,2,7\n");
@@ -143,19 +140,18 @@ TEST_WITHIN(test_types, set_up, tear_down) {
     assert_true(rows_number(cloud, EWA_COLOR, 0, 0) == 32768);
     assert_true(rows_number(cloud, EWA_COLOR, 0, 1) == 65535);
     assert_true(rows_number(cloud, EWA_COLOR, 0, 2) == 257);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Types hold for numbers that come long after the sample.
 TEST_WITHIN(test_late_numbers, set_up, tear_down) {
     enum { ROWS = 40000, BYTES = 40 };
-    char *text = malloc(ROWS * BYTES);
+    OWNED(check_free) char *text = malloc(ROWS * BYTES);
     assert_non_null(text);
     size_t length = 0;
     for (int i = 0; i < ROWS; i++)
         length += (size_t)snprintf(text + length, BYTES, "%d %d.%d 1 %d %d 4 1\n", i, i,
                                    i == 30001 ? 1255 : 5, i == 30005 ? -4 : 7, i == 30003 ? 3000 : 3);
-    ewa_cloud *cloud = rows_load(text);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(text);
     rows_expect(cloud, ROWS, "position,intensity,color");
     rows_find(cloud, "intensity", EWA_I16, 1);
     rows_find(cloud, EWA_COLOR, EWA_U16, 3);
@@ -164,8 +160,6 @@ TEST_WITHIN(test_late_numbers, set_up, tear_down) {
     ewa_coordinate_grid grid;
     ewa_cloud_grid(cloud, &grid);
     assert_true(grid.step_world[1] == 1e-4);
-    ewa_cloud_destroy(&cloud);
-    free(text);
 }
 
 TEST_WITHIN(test_places, set_up, tear_down) {
@@ -184,10 +178,9 @@ TEST_WITHIN(test_places, set_up, tear_down) {
     ewa_cloud_destroy(&near);
     static const char *const without[] = {"1.0123456789 2 3\n", "1e-3 2 3\n", "1 2 3\n1E2 3 4\n"};
     for (size_t i = 0; i < sizeof without / sizeof without[0]; i++) {
-        ewa_cloud *cloud = rows_load(without[i]);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(without[i]);
         ewa_cloud_grid(cloud, &grid);
         assert_true(grid.step_world[0] == 0 && grid.step_world[2] == 1);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -207,14 +200,13 @@ TEST_WITHIN(test_nearest, set_up, tear_down) {
                      size % scale);
         else
             snprintf(text, sizeof text, "%s%lld 0 0\n2 3 4\n", sign, size);
-        ewa_cloud *cloud = rows_load(text);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(text);
         double origin_world[3];
         ewa_cloud_origin(cloud, origin_world);
         // Both are doubles, so one division rounds once.
         const double expected = (double)(parts - (int64_t)origin_world[0] * scale) / (double)scale;
         if (rows_number(cloud, EWA_POSITION, 0, 0) != expected)
             fail_msg("%s gives %.17g", text, rows_number(cloud, EWA_POSITION, 0, 0));
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -246,7 +238,7 @@ TEST_WITHIN(test_keep_going, set_up, tear_down) {
     WITH_DEFAULTS(ewa_cloud_load_options, options);
     const char *text = "1 2 3\n4 5 6\nbad 1 2\n7 8 9\n7 8 9\n7 8 9\n7 8 9\n7 8 9\n1 2\n10 11 12\n13 14 15 "
                        "16\n16 17 18\n1 2 3\n";
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     uint64_t lost_count = 0;
     assert_int_equal(rows_read(text, &options, &cloud, NULL), EWA_ERROR_FORMAT);
     options.keep_going = true;
@@ -264,7 +256,6 @@ TEST_WITHIN(test_keep_going, set_up, tear_down) {
     assert_int_equal(messages.count, 1);
     assert_non_null(strstr(messages.text, "2 points without a place are left out"));
     rows_expect_world(cloud, 1, 4, 5, 6);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_columns, set_up, tear_down) {
@@ -284,7 +275,7 @@ TEST_WITHIN(test_columns, set_up, tear_down) {
 
 /// Columns of words are left out, and said.
 TEST_WITHIN(test_words, set_up, tear_down) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     const char *text = "x,y,z,kind of thing,v\n1,2,3,a tree,5\n4,5,6,\"a, b\",7\n7,8,9,,11\n1,1,1,tree,9\n";
     messages.count = 0;
     assert_int_equal(ewa_cloud_load_memory(context, text, strlen(text), "t", &cloud), EWA_OK);
@@ -292,7 +283,6 @@ TEST_WITHIN(test_words, set_up, tear_down) {
     assert_non_null(strstr(messages.text, "column 4, 'kind of thing', holds words"));
     rows_expect(cloud, 4, "position,v");
     assert_true(rows_number(cloud, "v", 1, 0) == 7 && rows_number(cloud, "v", 2, 0) == 11);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A text that is cut reads as what is left, or is refused; never more points, and all of them those of the whole.
@@ -325,7 +315,7 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
 TEST_WITHIN(test_paths, set_up, tear_down) {
     enum { ROWS = 30000, BYTES = 90 };
     check_random random = {3};
-    char *plain = malloc(ROWS * BYTES), *odd = malloc(ROWS * BYTES);
+    OWNED(check_free) char *plain = malloc(ROWS * BYTES), *odd = malloc(ROWS * BYTES);
     assert_non_null(plain);
     assert_non_null(odd);
     size_t length = 0, odd_length = 0;
@@ -367,11 +357,11 @@ TEST_WITHIN(test_paths, set_up, tear_down) {
     fclose(file);
     careful = rows_load(odd);
     for (uint64_t maximum = 700; maximum < 30000; maximum = 3 * maximum + 1) {
-        ewa_cloud_reader *reader = NULL;
+        OWNED(ewa_cloud_reader_close) ewa_cloud_reader *reader = NULL;
         assert_int_equal(ewa_cloud_reader_open(context, path, NULL, &reader), EWA_OK);
         uint64_t count = 0;
         for (;;) {
-            ewa_cloud *piece = NULL;
+            OWNED(ewa_cloud_destroy) ewa_cloud *piece = NULL;
             assert_int_equal(ewa_cloud_reader_next(reader, maximum, &piece), EWA_OK);
             if (!piece) break;
             const ewa_attribute *position = ewa_cloud_find(piece, EWA_POSITION);
@@ -379,14 +369,10 @@ TEST_WITHIN(test_paths, set_up, tear_down) {
                                 (const uint8_t *)ewa_cloud_find(careful, EWA_POSITION)->data + count * 24,
                                 ewa_cloud_point_count(piece) * 24);
             count += ewa_cloud_point_count(piece);
-            ewa_cloud_destroy(&piece);
         }
         assert_int_equal(count, ROWS);
-        ewa_cloud_reader_close(&reader);
     }
     ewa_cloud_destroy(&careful);
-    free(plain);
-    free(odd);
 }
 
 /// Every allocation that fails ends in an error, and nothing is kept.
@@ -395,7 +381,7 @@ TEST_WITHIN(test_memory, set_up, tear_down) {
     bool done = false;
     for (long call = 0; !done; call++) {
         check_memory memory = {.calls_left = -1};
-        ewa_context *poor = check_context_on(1, &memory);
+        OWNED(ewa_context_destroy) ewa_context *poor = check_context_on(1, &memory);
         const int64_t held_bytes = memory.held_bytes;
         memory.calls_left = call;
         ewa_cloud *cloud = NULL;
@@ -405,7 +391,6 @@ TEST_WITHIN(test_memory, set_up, tear_down) {
         memory.calls_left = -1;
         ewa_cloud_destroy(&cloud);
         assert_int_equal(memory.held_bytes, held_bytes);
-        ewa_context_destroy(&poor);
     }
 }
 

@@ -76,7 +76,7 @@ TEST_WITHIN(test_files, set_up, tear_down) {
         char name[128], path[512];
         snprintf(name, sizeof name, "clouds/text/%s", files[i].path);
         if (!check_data(name, path, sizeof path)) skip();
-        ewa_model model;
+        OWNED(ewa_model_free) ewa_model model;
         assert_int_equal(ewa_model_load(context, path, EWA_MODEL_POINTS, NULL, &model), EWA_OK);
         assert_int_equal(model.format, files[i].format);
         rows_expect(model.points, files[i].point_count, files[i].names);
@@ -85,7 +85,6 @@ TEST_WITHIN(test_files, set_up, tear_down) {
         if (files[i].last[2] != 0)
             rows_expect_world(model.points, files[i].point_count - 1, files[i].last[0], files[i].last[1],
                               files[i].last[2]);
-        ewa_model_free(&model);
     }
     assert_int_equal(messages.count, 0);
 }
@@ -94,7 +93,7 @@ TEST_WITHIN(test_files, set_up, tear_down) {
 TEST_WITHIN(test_matrix, set_up, tear_down) {
     char path[512];
     if (!check_data("clouds/text/complex-transform.ptx", path, sizeof path)) skip();
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_OK);
     const double expected[3] = {
         -0.005630 * 0.999979 + 0.645218 * 0.003613 - 0.440506 * 0.005359 - 3.028748,
@@ -104,7 +103,6 @@ TEST_WITHIN(test_matrix, set_up, tear_down) {
     for (uint32_t c = 0; c < 3; c++)
         assert_true(fabs(rows_number(cloud, EWA_POSITION, 0, c) - expected[c]) < 1e-12);
     assert_string_equal(ewa_cloud_note(cloud, "scanners", NULL), "-3.028748 -3.819741 -1.384333\n");
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_WITHIN(test_mesh_and_broken, set_up, tear_down) {
@@ -113,11 +111,10 @@ TEST_WITHIN(test_mesh_and_broken, set_up, tear_down) {
     if (!check_data("hostile/text/badheader.txt", path, sizeof path)) skip();
     assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_ERROR_FORMAT);
     assert_non_null(strstr(messages.text, "two columns are 'X'"));
-    ewa_model model;
+    OWNED(ewa_model_free) ewa_model model;
     if (!check_data("clouds/text/1.2-with-color.obj", path, sizeof path)) skip();
     assert_int_equal(ewa_model_load(context, path, EWA_MODEL_MESH, NULL, &model), EWA_OK);
     assert_int_equal(model.format, EWA_MODEL_OBJ);
-    ewa_model_free(&model);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -9,10 +9,9 @@ static void expect_file(const ewa_cloud *cloud, const char *name, const char *ex
     char path[512];
     assert_int_equal(ewa_cloud_save(cloud, scratch_path(name, path), NULL), EWA_OK);
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     bytes[size_bytes] = 0;
     assert_string_equal((char *)bytes, expected);
-    free(bytes);
 }
 
 /// Text that is read and written is the same text.
@@ -32,14 +31,13 @@ TEST_WITHIN(test_same, set_up, tear_down) {
         {"a.csv", "x,y,z,r,g,b\n0.1,2,3,1.000000,0.500008,0.003922\n"},
     };
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        ewa_cloud *cloud = rows_load(files[i].text);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(files[i].text);
         char text[512];
         snprintf(text, sizeof text, "%s", files[i].text);
         char *short_names = strstr(text, ",r,g,b");
         if (short_names)
             snprintf(text, sizeof text, "x,y,z,red,green,blue%s", strstr(files[i].text, ",r,g,b") + 6);
         if (ewa_cloud_point_count(cloud) > 0) expect_file(cloud, files[i].name, text);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -66,9 +64,8 @@ TEST_WITHIN(test_every_digit, set_up, tear_down) {
             }
         }
         text[length] = 0;
-        ewa_cloud *cloud = rows_load(text);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(text);
         expect_file(cloud, "digits.xyz", text);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -76,7 +73,7 @@ TEST_WITHIN(test_every_digit, set_up, tear_down) {
 TEST_WITHIN(test_shortest, set_up, tear_down) {
     enum { POINTS = 1000 };
     check_random random = {5};
-    ewa_cloud *cloud = NULL, *back = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL, *back = NULL;
     void *position, *value, *color;
     assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
@@ -101,29 +98,26 @@ TEST_WITHIN(test_shortest, set_up, tear_down) {
             assert_true(rows_number(cloud, EWA_COLOR, i, c) == rows_number(back, EWA_COLOR, i, c));
         }
     }
-    ewa_cloud_destroy(&cloud);
-    ewa_cloud_destroy(&back);
 }
 
 TEST_WITHIN(test_linear_colors, set_up, tear_down) {
     const float position[3] = {0.1f, 2, 3}, color[3] = {1, 0, 0.21404114f};
-    ewa_cloud *cloud = check_cloud_of(context, 1);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_COLOR, EWA_F32, 3, color, 0), EWA_OK);
     expect_file(cloud, "linear.txt", "//X Y Z Rf Gf Bf\n0.1 2 3 1.000000 0.000000 0.500000\n");
     expect_file(cloud, "linear.pts", "1\n0.1 2 3 255 0 128\n");
-    ewa_cloud_destroy(&cloud);
 }
 
 /// The file does not depend on pieces and threads; a count that comes late is put in front.
 TEST_WITHIN(test_pieces, set_up, tear_down) {
     enum { POINTS = 20000, BYTES = 48 };
-    char *text = malloc(POINTS * BYTES);
+    OWNED(check_free) char *text = malloc(POINTS * BYTES);
     assert_non_null(text);
     size_t length = 0;
     for (int i = 0; i < POINTS; i++)
         length += (size_t)snprintf(text + length, BYTES, "%d.25 %d 3.5 %d %d 2 3\n", i, -i, i % 999, i % 256);
-    ewa_cloud *cloud = rows_load(text);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load(text);
     char path[512];
     ewa_cloud_writer *writer = NULL;
     scratch_path("pieces.pts", path);
@@ -133,26 +127,22 @@ TEST_WITHIN(test_pieces, set_up, tear_down) {
         uint64_t indices[7000];
         const uint64_t count = POINTS - first < 7000 ? POINTS - first : 7000;
         for (uint64_t i = 0; i < count; i++) indices[i] = first + i;
-        ewa_cloud *piece = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *piece = NULL;
         assert_int_equal(ewa_cloud_select(cloud, indices, count, &piece), EWA_OK);
         assert_int_equal(ewa_cloud_writer_put(writer, piece), EWA_OK);
-        ewa_cloud_destroy(&piece);
     }
     assert_int_equal(ewa_cloud_writer_commit(&writer), EWA_OK);
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(path, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
     const char *line = memchr(bytes, '\n', size_bytes);
     assert_int_equal(strtoul((char *)bytes, NULL, 10), POINTS);
     assert_int_equal(size_bytes - (size_t)(line + 1 - (char *)bytes), length);
     assert_memory_equal(line + 1, text, length);
-    free(bytes);
-    ewa_cloud_destroy(&cloud);
-    free(text);
 }
 
 TEST_WITHIN(test_refused, set_up, tear_down) {
     char path[512];
-    ewa_cloud *cloud = rows_load("1 2 3\n");
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = rows_load("1 2 3\n");
     void *value;
     assert_int_equal(ewa_cloud_add(cloud, "x", EWA_U8, 1, &value), EWA_OK);
     assert_int_equal(ewa_cloud_save(cloud, scratch_path("twice.csv", path), NULL), EWA_ERROR_ARGUMENT);
@@ -163,7 +153,6 @@ TEST_WITHIN(test_refused, set_up, tear_down) {
     assert_int_equal(ewa_cloud_save(cloud, scratch_path("less.pts", path), NULL), EWA_OK);
     assert_int_equal(messages.count, 1);
     assert_non_null(strstr(messages.text, "2 other attributes are left out"));
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -10,10 +10,9 @@
 
 static ewa_status read_text(ewa_context *context, const char *text, ewa_transfer *transfer) {
     const size_t size_bytes = strlen(text);
-    uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
+    OWNED(check_free) uint8_t *copy = malloc(size_bytes ? size_bytes : 1);
     memcpy(copy, text, size_bytes);
     const ewa_status status = ewa_transfer_read(context, "look.json", copy, size_bytes, transfer);
-    free(copy);
     return status;
 }
 
@@ -95,7 +94,7 @@ TEST(test_broken_files) {
         {"{\"other\": 1, \"points\": [" POINT("1") "," POINT("2") "]}", "other"},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         ewa_transfer transfer;
         log.count = 0;
@@ -105,7 +104,6 @@ TEST(test_broken_files) {
             fail_msg("case %zu: status %d, '%s'", i, status, log.text);
         assert_int_equal(transfer.point_count, 0);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_every_truncation_fails, 1) {
@@ -119,7 +117,7 @@ TEST_ON(test_every_truncation_fails, 1) {
 }
 
 TEST_ON(test_too_many_points, 1) {
-    char *text = malloc(EWA_MAX_TRANSFER_POINTS * 64 + 256);
+    OWNED(check_free) char *text = malloc(EWA_MAX_TRANSFER_POINTS * 64 + 256);
     for (int more = 0; more < 2; more++) {
         char *at = text + sprintf(text, "{\"points\": [" POINT("0"));
         for (int i = 1; i < EWA_MAX_TRANSFER_POINTS + more; i++) at += sprintf(at, "," POINT("1"));
@@ -127,7 +125,6 @@ TEST_ON(test_too_many_points, 1) {
         ewa_transfer transfer;
         assert_int_equal(read_text(context, text, &transfer), more ? EWA_ERROR_LIMIT : EWA_OK);
     }
-    free(text);
 }
 
 /// 16 x 16 x 16 shorts from `low` on: noise, in it a ball at 40 %, in that one at 90 %.
@@ -157,7 +154,7 @@ static double extinction_at(const ewa_transfer *transfer, double value) {
 }
 
 TEST_ON(test_automatic, 1) {
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     ewa_volume_facts facts;
     ewa_transfer transfer;
     make_volume(context, 100, 10000, &volume);
@@ -178,7 +175,7 @@ TEST_ON(test_automatic, 1) {
     // 15 spacings across: the unit of length goes with the size.
     assert_true(fabs(transfer.unit_length_world - 15.0 / 128) < 1e-12);
     // The same picture at another scale of the values.
-    ewa_volume other;
+    OWNED(ewa_volume_free) ewa_volume other;
     ewa_transfer shifted;
     make_volume(context, -5000, 10000, &other);
     assert_int_equal(ewa_volume_measure(&other, &facts), EWA_OK);
@@ -188,8 +185,6 @@ TEST_ON(test_automatic, 1) {
         assert_true(fabs(shifted.points[i].value + 5100 - transfer.points[i].value) < 1e-6);
         assert_true(shifted.points[i].extinction == transfer.points[i].extinction);
     }
-    ewa_volume_free(&other);
-    ewa_volume_free(&volume);
 }
 
 /// What a volume holds, against sums of our own: every type, numbers that are none, a slanted grid.
@@ -197,7 +192,7 @@ TEST_ON(test_measure, 1) {
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     enum { X = 13, Y = 7, Z = 29, COUNT = X * Y * Z };
     for (int t = 0; t < 5; t++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){X, Y, Z}, types[t], &volume), EWA_OK);
         static const double place[12] = {1, 0.5, 0, 10, -2, 0.25, 0, 20, 0, 0, -3, 30};
         memcpy(volume.index_to_world, place, sizeof place);
@@ -256,7 +251,6 @@ TEST_ON(test_measure, 1) {
                         facts.high_world[axis] == corner_high[axis]);
         }
         free(numbers);
-        ewa_volume_free(&volume);
     }
 }
 
@@ -315,10 +309,8 @@ TEST_ON(test_preset_points, 1) {
     for (int kind = 0; kind < 2; kind++) ewa_volume_free(&volumes[kind]);
 }
 
-TEST(test_presets) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_volume volume;
+TEST_LOGGED(test_presets, 1) {
+    OWNED(ewa_volume_free) ewa_volume volume;
     ewa_volume_facts facts;
     ewa_transfer transfer;
     const char *name, *what;
@@ -346,8 +338,6 @@ TEST(test_presets) {
     for (int i = 0; i < 8; i++) ((float *)volume.voxels)[i] = NAN;
     assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
     assert_int_equal(ewa_transfer_automatic(&volume, &facts, &transfer), EWA_ERROR_NUMERIC);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status save_and_load(ewa_context *context, void *user) {

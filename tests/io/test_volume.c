@@ -19,20 +19,16 @@ static void check_place(ewa_context *context, const sample_file *file, const cha
     ewa_volume_free(&volume);
 }
 
-TEST(test_every_format) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_format, 1) {
     sample_file file;
     const char *name;
     for (int which = 0; (name = sample_make(which, &file)); which++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         if (sample_load(context, &file, file.size_bytes, name, NULL, &volume) != EWA_OK)
-            fail_msg("%s: %s", name, log.text);
+            fail_msg("%s: %s", name, log->text);
         sample_check(&volume);
-        ewa_volume_free(&volume);
     }
-    assert_int_equal(log.count, 0);
-    ewa_context_destroy(&context);
+    assert_int_equal(log->count, 0);
 }
 
 TEST_ON(test_every_type, 1) {
@@ -51,11 +47,10 @@ TEST_ON(test_every_type, 1) {
                      types[i].word, big ? "big" : "little");
             sample_text(&file, head);
             sample_put_numbers(&file, types[i].type, big);
-            ewa_volume volume;
+            OWNED(ewa_volume_free) ewa_volume volume;
             assert_int_equal(sample_load(context, &file, file.size_bytes, "t.nrrd", NULL, &volume), EWA_OK);
             assert_int_equal(volume.type, types[i].becomes);
             sample_check(&volume);
-            ewa_volume_free(&volume);
         }
 }
 
@@ -96,11 +91,10 @@ TEST_ON(test_nrrd_places, 1) {
     // The world of the spacing option.
     WITH_DEFAULTS(ewa_volume_load_options, options);
     options.spacing_world[0] = 10;
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     assert_int_equal(sample_load(context, &file, file.size_bytes, "s.nrrd", &options, &volume), EWA_OK);
     assert_true(volume.index_to_world[0] == 10 && volume.index_to_world[3] == -5 &&
                 volume.index_to_world[5] == 1);
-    ewa_volume_free(&volume);
 }
 
 TEST(test_nrrd_axes) {
@@ -121,10 +115,10 @@ TEST(test_nrrd_axes) {
         {"dimension: 3\nsizes: 0 3 2\n", EWA_ERROR_FORMAT, {0}, 0},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         sample_file file = {.size_bytes = 0};
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         sample_text(&file, "NRRD0004\ntype: uchar\nencoding: raw\n");
         sample_text(&file, cases[i].text);
         sample_text(&file, "\n\001\002\003\004\005\006");
@@ -139,9 +133,7 @@ TEST(test_nrrd_axes) {
             assert_true(fabsf(voxels[0] - (0.2126f * 1 + 0.7152f * 2 + 0.0722f * 3)) < 1e-6f);
             assert_true(fabsf(voxels[1] - (0.2126f * 4 + 0.7152f * 5 + 0.0722f * 6)) < 1e-6f);
         }
-        ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_nifti_places, 1) {
@@ -171,12 +163,11 @@ TEST_ON(test_nifti_places, 1) {
         // A slope makes floats.
         sample_store_real(file.bytes + (second ? 176 : 112), big, second, 0.5);
         sample_store_real(file.bytes + (second ? 184 : 116), big, second, 100);
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(sample_load(context, &file, file.size_bytes, "i.nii", NULL, &volume), EWA_OK);
         assert_int_equal(volume.type, EWA_F32);
         for (int i = 0; i < SAMPLE_VOXELS; i++)
             assert_true(((const float *)volume.voxels)[i] == 100 + 0.5f * (float)i);
-        ewa_volume_free(&volume);
     }
 }
 
@@ -314,24 +305,22 @@ TEST_ON(test_vtk_arrays, 1) {
 /// A MetaImage of two axes may have spacings and offsets of three.
 TEST_ON(test_meta_slice, 1) {
     sample_file file = {.size_bytes = 0};
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     sample_text(&file, "NDims = 2\nDimSize = 2 3\nElementType = MET_UCHAR\nElementSpacing = 2 4 5\nOffset = 1 2 3\n"
                        "ElementDataFile = LOCAL\nabcdef");
     assert_int_equal(sample_load(context, &file, file.size_bytes, "a.mha", NULL, &volume), EWA_OK);
     assert_true(volume.dims[0] == 2 && volume.dims[1] == 3 && volume.dims[2] == 1);
     assert_true(volume.index_to_world[0] == 2 && volume.index_to_world[5] == 4 && volume.index_to_world[3] == 1);
-    ewa_volume_free(&volume);
 }
 
 /// A slice has one layer of cells along its normal.
 TEST_ON(test_vtk_slice, 1) {
     sample_file file = {.size_bytes = 0};
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     sample_text(&file, "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 1 2\nCELL_DATA 2\n"
                        "SCALARS s float\nLOOKUP_TABLE default\n1 2\n");
     assert_int_equal(sample_load(context, &file, file.size_bytes, "a.vtk", NULL, &volume), EWA_OK);
     assert_true(volume.dims[0] == 2 && volume.dims[1] == 1 && volume.dims[2] == 1);
-    ewa_volume_free(&volume);
 }
 
 /// Three bytes for each place: colours, by the kinds, by what early writers did, and in XML images.
@@ -351,14 +340,13 @@ TEST_ON(test_colors, 1) {
     }
     sample_text(&files[1], "</DataArray></PointData></Piece></ImageData></VTKFile>");
     for (int f = 0; f < 2; f++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(sample_load(context, &files[f], files[f].size_bytes, "c", NULL, &volume), EWA_OK);
         assert_true(volume.dims[0] == 4 && volume.dims[1] == 5 && volume.dims[2] == 1);
         for (int i = 0; i < 20; i++) {
             const double luminance = 0.2126 * 12 * i + 0.7152 * (12 * i + 4) + 0.0722 * (12 * i + 8);
             assert_true(fabs((double)((const float *)volume.voxels)[i] - luminance) < 1e-4);
         }
-        ewa_volume_free(&volume);
     }
 }
 
@@ -372,10 +360,9 @@ TEST_ON(test_anatomical, 1) {
         snprintf(text, sizeof text, "encoding: raw\n%s", fields[i]);
         sample_nrrd(text, &file);
         sample_put_numbers(&file, EWA_U8, false);
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(sample_load(context, &file, file.size_bytes, "x", NULL, &volume), EWA_OK);
         assert_true(volume.anatomical == (i == 1 || i == 2));
-        ewa_volume_free(&volume);
     }
 }
 
@@ -437,10 +424,9 @@ TEST_ON(test_parts, 1) {
     };
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
         scratch_write(scratch_path("parts.nhdr", header), headers[i], strlen(headers[i]));
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(ewa_volume_load(context, header, NULL, &volume), EWA_OK);
         sample_check(&volume);
-        ewa_volume_free(&volume);
     }
     static const struct {
         const char *file;
@@ -468,22 +454,18 @@ TEST_ON(test_parts, 1) {
     }
 }
 
-TEST(test_numbers_that_are_none) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_numbers_that_are_none, 1) {
     sample_file file = {.size_bytes = 0};
     sample_text(&file, "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 1 2\nencoding: txt\n\n1 nan inf 4\n");
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     assert_int_equal(sample_load(context, &file, file.size_bytes, "nan.nrrd", NULL, &volume), EWA_OK);
-    assert_int_equal(log.count, 1);
-    assert_non_null(strstr(log.text, "2 of 4 voxels"));
+    assert_int_equal(log->count, 1);
+    assert_non_null(strstr(log->text, "2 of 4 voxels"));
     const float *voxels = volume.voxels;
     assert_true(voxels[0] == 1 && isnan(voxels[1]) && isnan(voxels[2]) && voxels[3] == 4);
     ewa_volume_facts facts;
     assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
     assert_true(facts.finite_count == 2 && facts.low == 1 && facts.high == 4 && facts.mean == 2.5);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_saving, 1) {
@@ -491,7 +473,7 @@ TEST_ON(test_saving, 1) {
     char path[512];
     scratch_path("saved.nrrd", path);
     for (size_t t = 0; t < 2 * sizeof types / sizeof types[0]; t++) {
-        ewa_volume volume, again;
+        OWNED(ewa_volume_free) ewa_volume volume, again;
         assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){5, 4, 3}, types[t / 2], &volume),
                          EWA_OK);
         const size_t bytes = 60 * ewa_type_bytes(types[t / 2]);
@@ -508,8 +490,6 @@ TEST_ON(test_saving, 1) {
         for (int i = 0; i < 12; i++)
             assert_true(fabs(again.index_to_world[i] - place[i]) <= 1e-15 * fabs(place[i]));
         assert_int_equal(ewa_volume_save(&volume, "volume.ply", NULL), EWA_ERROR_UNSUPPORTED);
-        ewa_volume_free(&again);
-        ewa_volume_free(&volume);
     }
 }
 
@@ -524,7 +504,7 @@ static bool load_data(ewa_context *context, const char *name, ewa_volume *volume
 
 TEST_ON(test_real_files, 0) {
     for (size_t i = 0; i < sizeof volume_facts / sizeof volume_facts[0]; i++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         ewa_volume_facts facts;
         if (!load_data(context, volume_facts[i].name, &volume)) continue;
         assert_memory_equal(volume.dims, volume_facts[i].dims, sizeof volume.dims);
@@ -532,7 +512,6 @@ TEST_ON(test_real_files, 0) {
         assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
         if (fabs(facts.low - volume_facts[i].low) > 1e-8 || fabs(facts.high - volume_facts[i].high) > 1e-7)
             fail_msg("%s: %.9g .. %.9g", volume_facts[i].name, facts.low, facts.high);
-        ewa_volume_free(&volume);
     }
 }
 

@@ -4,9 +4,7 @@
 // Tests of volume files that are cut short, broken, or claim more than they hold.
 #include "volume_sample.h"
 
-TEST(test_every_truncation_fails) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_every_truncation_fails, 1) {
     sample_file file;
     const char *name;
     for (int which = 0; (name = sample_make(which, &file)); which++) {
@@ -14,7 +12,7 @@ TEST(test_every_truncation_fails) {
         const size_t whole = which == 2 ? file.size_bytes - 1 : file.size_bytes;
         for (size_t size_bytes = 0; size_bytes < whole; size_bytes++) {
             ewa_volume volume;
-            log.count = 0;
+            log->count = 0;
             // A number that lost its last digit is still one.
             const ewa_status status = sample_load(context, &file, size_bytes, name, NULL, &volume);
             if (which == 2 && size_bytes + 1 == whole && status == EWA_OK) {
@@ -22,13 +20,12 @@ TEST(test_every_truncation_fails) {
                 continue;
             }
             // Half a word of a head may name something else that is not read.
-            if ((status != EWA_ERROR_FORMAT && status != EWA_ERROR_UNSUPPORTED) || !log.count)
-                fail_msg("%s cut to %zu bytes: status %d, %s", name, size_bytes, status, log.text);
-            assert_non_null(strstr(log.text, name));
+            if ((status != EWA_ERROR_FORMAT && status != EWA_ERROR_UNSUPPORTED) || !log->count)
+                fail_msg("%s cut to %zu bytes: status %d, %s", name, size_bytes, status, log->text);
+            assert_non_null(strstr(log->text, name));
             assert_null(volume.voxels);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 /// Every byte of every file is changed in a few ways: whatever comes back, nothing breaks.
@@ -37,7 +34,7 @@ TEST(test_every_changed_byte) {
     WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.limits.max_memory_bytes = 1 << 24;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     sample_file file;
     const char *name;
@@ -52,7 +49,6 @@ TEST(test_every_changed_byte) {
                 ewa_volume_free(&volume);
                 file.bytes[at] = kept;
             }
-    ewa_context_destroy(&context);
 }
 
 #define NRRD  "NRRD0004\n"
@@ -192,7 +188,7 @@ TEST(test_broken_files) {
         {"<VTKFile a='<ImageData>' b=\"", "ImageData", EWA_ERROR_UNSUPPORTED},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         sample_file file = {.size_bytes = 0};
         ewa_volume volume;
@@ -205,7 +201,6 @@ TEST(test_broken_files) {
             fail_msg("case %zu (%s): status %d, said '%s'", i, files[i].text, status, log.text);
         assert_null(volume.voxels);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_broken_nifti) {
@@ -227,7 +222,7 @@ TEST(test_broken_nifti) {
         {254, 2, 1, EWA_ERROR_FORMAT},          // an sform of zeros
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         sample_file file;
         ewa_volume volume;
@@ -237,13 +232,12 @@ TEST(test_broken_nifti) {
         const ewa_status status = sample_load(context, &file, file.size_bytes, "bad.nii", NULL, &volume);
         if (status != changes[i].status || !log.count) fail_msg("case %zu: %d, %s", i, status, log.text);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_limit) {
     WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 1000;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     sample_file file = {.size_bytes = 0};
     // 1,001 voxels that the file does hold.
@@ -252,15 +246,13 @@ TEST(test_limit) {
     file.size_bytes += 1001;
     ewa_volume volume;
     assert_int_equal(sample_load(context, &file, file.size_bytes, "big", NULL, &volume), EWA_ERROR_LIMIT);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status load_one(ewa_context *context, void *user) {
     sample_file file;
     const char *name = sample_make(*(int *)user, &file);
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     const ewa_status status = sample_load(context, &file, file.size_bytes, name, NULL, &volume);
-    ewa_volume_free(&volume);
     return status;
 }
 
@@ -270,10 +262,9 @@ TEST(test_failing_allocations) {
 }
 
 static ewa_status save_one(ewa_context *context, void *user) {
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     ewa_status status = ewa_volume_create(context, (const uint32_t[3]){4, 4, 4}, EWA_U8, &volume);
     if (status == EWA_OK) status = ewa_volume_save(&volume, user, NULL);
-    ewa_volume_free(&volume);
     return status;
 }
 

@@ -24,8 +24,8 @@ static const uint8_t animation[] = {0x52, 0x49, 0x46, 0x46, 0xc0, 0x00, 0x00, 0x
 
 TEST(test_known_pixels) {
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
-    ewa_image image;
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_load_memory(context, plain, sizeof plain, "a.webp", &image), EWA_OK);
     assert_true(image.width_px == 3 && image.height_px == 2 && image.channel_count == 3);
     for (int i = 0; i < 6; i++) {
@@ -42,16 +42,14 @@ TEST(test_known_pixels) {
     ewa_image_free(&image);
     assert_int_equal(ewa_image_decode(context, clear, sizeof clear, "a.webp", true, &image), EWA_OK);
     assert_true(image.pixels[5] == 1);
-    ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_broken) {
     mesh_messages messages;
-    ewa_context *context = mesh_context(&messages);
+    OWNED(ewa_context_destroy) ewa_context *context = mesh_context(&messages);
     ewa_image image;
     for (size_t size = 0; size < sizeof clear; size++) {
-        uint8_t *copy = malloc(size + 1); // so that a sanitizer sees the first byte too many
+        OWNED(check_free) uint8_t *copy = malloc(size + 1); // so that a sanitizer sees the first byte too many
         memcpy(copy, clear, size);
         messages = (mesh_messages){.errors = 0};
         const ewa_status status = ewa_image_load_memory(context, copy, size, "cut.webp", &image);
@@ -60,7 +58,6 @@ TEST(test_broken) {
         else
             assert_true(messages.errors == 1 && !image.pixels);
         assert_true(status != EWA_OK || size >= sizeof clear - 2);
-        free(copy);
     }
     check_random random = {3};
     for (int i = 0; i < 2000; i++) {
@@ -75,7 +72,6 @@ TEST(test_broken) {
     assert_int_equal(ewa_image_load_memory(context, animation, sizeof animation, "a.webp", &image),
                      EWA_ERROR_UNSUPPORTED);
     mesh_says(&messages, "a.webp: WebP: an animation");
-    ewa_context_destroy(&context);
 }
 
 static ewa_status work(ewa_context *context, void *user) {
@@ -90,11 +86,10 @@ TEST(test_limits) {
     scratch_fail_each(work, NULL);
     WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 29;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     ewa_image image;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     assert_int_equal(ewa_image_load_memory(context, plain, sizeof plain, "a.webp", &image), EWA_ERROR_LIMIT);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -59,8 +59,8 @@ static void assert_code(uint32_t value, uint8_t code) {
 }
 
 TEST(test_codes_are_those_of_the_curve) {
-    float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
-    uint8_t *rgba8 = calloc(PIXELS, 4);
+    OWNED(check_free) float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
+    OWNED(check_free) uint8_t *rgba8 = calloc(PIXELS, 4);
     const ewa_tile tile = whole_tile(sums);
     const ewa_resolve to = plain_resolve(rgba8, SIDE_PX);
     for (size_t set = 0; set < FEATURE_SETS; set++) {
@@ -78,14 +78,12 @@ TEST(test_codes_are_those_of_the_curve) {
             }
         }
     }
-    free(rgba8);
-    free(sums);
 }
 
 /// Values that no picture should hold stay within the codes.
 TEST(test_codes_are_clamped) {
-    float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
-    uint8_t *rgba8 = calloc(PIXELS, 4);
+    OWNED(check_free) float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
+    OWNED(check_free) uint8_t *rgba8 = calloc(PIXELS, 4);
     const ewa_tile tile = whole_tile(sums);
     const ewa_resolve to = plain_resolve(rgba8, SIDE_PX);
     set_sums(sums, 0, (float[CHANNELS]){1, 7, -3, 1e30f});
@@ -98,15 +96,13 @@ TEST(test_codes_are_clamped) {
         assert_int_equal(rgba8[11], 0); // hardly there
         assert_memory_equal(rgba8 + 12, ((uint8_t[4]){0}), 4);
     }
-    free(rgba8);
-    free(sums);
 }
 
 /// A tile of which the picture holds 37x30 pixels, with covered, half covered and empty ones: alpha, colour
 /// over the background, nothing beyond the picture's edge, the same in 8 bits as in floats.
 TEST(test_partial_tile_over_background) {
     enum { WIDTH_PX = 37, HEIGHT_PX = 30, GUARD = 64 };
-    float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
+    OWNED(check_free) float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     for (uint32_t i = 0; i < PIXELS; i++) {
         const float q = (float)(i % 5) / 4, v = (float)(i % 97) / 96;
         // The right half is empty, blocks and all.
@@ -126,8 +122,8 @@ TEST(test_partial_tile_over_background) {
     uint8_t first[WIDTH_PX * HEIGHT_PX * 4];
     for (size_t set = 0; set < FEATURE_SETS; set++) {
         for (int with_floats = 0; with_floats < 2; with_floats++) {
-            uint8_t *rgba8 = malloc(WIDTH_PX * HEIGHT_PX * 4 + GUARD);
-            float *rgba = malloc(WIDTH_PX * HEIGHT_PX * 4 * sizeof *rgba);
+            OWNED(check_free) uint8_t *rgba8 = malloc(WIDTH_PX * HEIGHT_PX * 4 + GUARD);
+            OWNED(check_free) float *rgba = malloc(WIDTH_PX * HEIGHT_PX * 4 * sizeof *rgba);
             memset(rgba8, 99, WIDTH_PX * HEIGHT_PX * 4 + GUARD);
             ewa_resolve to = plain_resolve(rgba8, WIDTH_PX);
             if (with_floats) to.rgba = rgba;
@@ -148,11 +144,8 @@ TEST(test_partial_tile_over_background) {
             for (int i = 0; i < GUARD; i++) assert_int_equal(rgba8[WIDTH_PX * HEIGHT_PX * 4 + i], 99);
             if (set + (size_t)with_floats == 0) memcpy(first, rgba8, sizeof first);
             assert_memory_equal(first, rgba8, sizeof first);
-            free(rgba);
-            free(rgba8);
         }
     }
-    free(sums);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -103,23 +103,20 @@ lod_point *lod_points(ewa_cloud *const *clouds, uint32_t cloud_count, bool surfe
 
 void lod_hold_same(ewa_cloud *const *inputs, uint32_t input_count, ewa_cloud *output, bool surfels) {
     uint64_t count, output_count;
-    lod_point *expected = lod_points(inputs, input_count, surfels, &count);
-    lod_point *got = lod_points(&output, 1, surfels, &output_count);
+    OWNED(check_free) lod_point *expected = lod_points(inputs, input_count, surfels, &count);
+    OWNED(check_free) lod_point *got = lod_points(&output, 1, surfels, &output_count);
     assert_int_equal(count, output_count);
     assert_memory_equal(expected, got, count * sizeof *got);
-    free(expected);
-    free(got);
 }
 
 void lod_hold_same_files(const char *a, const char *b) {
     char path[512];
     size_t a_bytes, b_bytes;
+    OWNED(check_free)
     uint8_t *of_a = scratch_read(scratch_path(a, path), &a_bytes),
             *of_b = scratch_read(scratch_path(b, path), &b_bytes);
     assert_int_equal(a_bytes, b_bytes);
     if (memcmp(of_a, of_b, a_bytes) != 0) fail_msg("%s and %s are different", a, b);
-    free(of_a);
-    free(of_b);
 }
 
 bool lod_is_there(const char *name) {

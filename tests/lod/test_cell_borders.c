@@ -34,7 +34,7 @@ static border_counts count_borders(ewa_context *context, const ewa_octree_key *k
     const double *m = to_world ? to_world : none;
     check_random random = {11};
     static double places[POINTS][2];
-    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, POINTS);
     float *p = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     for (int i = 0; i < POINTS; i++) {
         double at[3] = {0, 0, z};
@@ -55,7 +55,6 @@ static border_counts count_borders(ewa_context *context, const ewa_octree_key *k
         counts.own += high < -0.1;
         counts.inner += high > -0.1 && low > -0.9;
     }
-    ewa_cloud_destroy(&cloud);
     return counts;
 }
 
@@ -86,7 +85,7 @@ TEST_ON(test_other_shapes, 0) {
     } shapes[] = {{EWA_U8, 1, 1}, {EWA_F32, 1, 1}, {EWA_F32, 4, 1}, {EWA_F64, 3, 1}, {EWA_F32, 3, 4}, {EWA_F32, 3, 0}};
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
         for (int k = 0; k < 2; k++) {
-            ewa_cloud *cloud = check_cloud_of(context, 1000);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1000);
             uint8_t *to = check_add(cloud, EWA_POSITION, EWA_F32, 3);
             memset(to, 0, 3000 * sizeof(float));
             assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, shapes[s].type, shapes[s].border_components, (void **)&to), EWA_OK);
@@ -97,13 +96,12 @@ TEST_ON(test_other_shapes, 0) {
             }
             ewa_cell_keep_borders(&facts, &keys[k], none, cloud);
             assert_null(ewa_cloud_find(cloud, EWA_BORDER));
-            ewa_cloud_destroy(&cloud);
         }
 }
 
 TEST_ON(test_no_borders, 0) {
     void *to;
-    ewa_cloud *cloud = check_cloud_of(context, 1000);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1000);
     ewa_cell_drop_empty_borders(cloud);
     assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, EWA_F32, 3, &to), EWA_OK);
     memset(to, 0, 3000 * sizeof(float));
@@ -113,7 +111,6 @@ TEST_ON(test_no_borders, 0) {
     ((float *)to)[2999] = 0;
     ewa_cell_drop_empty_borders(cloud);
     assert_null(ewa_cloud_find(cloud, EWA_BORDER));
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

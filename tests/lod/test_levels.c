@@ -56,7 +56,7 @@ static void make_sample(sample *s, uint64_t seed) {
 }
 
 static void hold_round_trip(bool curved) {
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     static sample given, got;
     static uint8_t scratch[18 * SURFELS];
     make_sample(&given, 1);
@@ -84,16 +84,14 @@ static void hold_round_trip(bool curved) {
     // Every shorter block is damaged, as is one of another count.
     for (uint32_t left = 0; left < size_bytes; left += 7) {
         const ewa_levels_page cut = {.surfel_count = SURFELS, .size_bytes = left};
-        uint8_t *copy = malloc(left + 1);
+        OWNED(check_free) uint8_t *copy = malloc(left + 1);
         assert_non_null(copy);
         memcpy(copy, block.data, left);
         assert_non_null(ewa_level_decode(&cut, copy, scratch, &to));
-        free(copy);
     }
     const ewa_levels_page fewer = {.surfel_count = SURFELS - 1, .size_bytes = (uint32_t)size_bytes};
     assert_non_null(ewa_level_decode(&fewer, block.data, scratch, &to));
     ewa_buffer_free(context, &block);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_round_trip) {
@@ -144,7 +142,7 @@ static uint8_t *make_record(ewa_context *context, int version, size_t *size_byte
 /// Decodes a page's attributes into memory that ends with them; what is wrong, NULL: they are `numbers`.
 static const char *decode_attributes(const ewa_levels *levels, const ewa_levels_page *page, const uint8_t *record, bool known) {
     const size_t count = page->surfel_count, raw_bytes = ewa_level_attribute_bytes(levels, page->surfel_count);
-    uint8_t *scratch = malloc(raw_bytes + 1);
+    OWNED(check_free) uint8_t *scratch = malloc(raw_bytes + 1);
     void *streams[EWA_LEVELS_MAX_ATTRIBUTES] = {NULL};
     for (uint32_t a = 0; a < levels->attribute_count; a++) // one that nobody wants
         streams[a] = a == 2 ? NULL : malloc(count * ewa_type_bytes(levels->attributes[a].type) + 1);
@@ -159,13 +157,12 @@ static const char *decode_attributes(const ewa_levels *levels, const ewa_levels_
         }
         free(streams[a]);
     }
-    free(scratch);
     return fault;
 }
 
 /// Reads bytes from memory that ends with them; what is read can be used.
 static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t size_bytes) {
-    uint8_t *copy = malloc(size_bytes + !size_bytes);
+    OWNED(check_free) uint8_t *copy = malloc(size_bytes + !size_bytes);
     assert_non_null(copy);
     memcpy(copy, bytes, size_bytes);
     ewa_levels levels;
@@ -184,15 +181,14 @@ static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t
         (void)decode_attributes(&levels, page, copy, false);
     }
     ewa_levels_free(context, &levels);
-    free(copy);
     return status;
 }
 
 static void hold_record(int version) {
     const bool curved = version > 1;
-    ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, version, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = make_record(context, version, &size_bytes);
     ewa_levels levels;
     assert_int_equal(ewa_levels_read(context, "test", bytes, size_bytes, &levels), EWA_OK);
     assert_int_equal(levels.page_count, PAGES);
@@ -214,8 +210,6 @@ static void hold_record(int version) {
     assert_null(ewa_level_decode(&levels.pages[1], bytes + levels.pages[1].at_bytes, scratch, &to));
     assert_memory_equal(given.rgba, got.rgba, (size_t)4 * levels.pages[1].surfel_count);
     ewa_levels_free(context, &levels);
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_record) {
@@ -224,7 +218,7 @@ TEST(test_record) {
 
 TEST_ON(test_damage, 1) {
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, 3, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = make_record(context, 3, &size_bytes);
     const size_t table_bytes = table_bytes_of(3);
     // Whatever is cut off, a page's block is not whole.
     for (size_t left = 0; left < size_bytes; left++)
@@ -242,7 +236,6 @@ TEST_ON(test_damage, 1) {
         assert_int_equal(read_record(context, bytes, size_bytes), EWA_OK);
         bytes[at] ^= 0x55;
     }
-    free(bytes);
 }
 
 /// Reads a record in which `size_bytes` bytes at a place are others.
@@ -259,9 +252,9 @@ static ewa_status read_with(ewa_context *context, const uint8_t *bytes, size_t r
 
 TEST(test_refusals) {
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, 3, &size_bytes);
+    OWNED(check_free) uint8_t *bytes = make_record(context, 3, &size_bytes);
     static const uint8_t version[4] = {4}, zero[4] = {0}, many[4] = {1, 0, 0, 1},
                          minus[4] = {255, 255, 255, 255};
     static const uint8_t nan[4] = {0, 0, 0xc0, 0x7f}, two[4] = {2}, deep[4] = {31};
@@ -316,8 +309,6 @@ TEST(test_refusals) {
     uint8_t endless[EWA_NAME_BYTES];
     memset(endless, 'a', sizeof endless);
     assert_int_equal(read_with(context, bytes, size_bytes, SECOND, endless, sizeof endless), EWA_ERROR_FORMAT);
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

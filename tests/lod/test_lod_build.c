@@ -37,7 +37,7 @@ static void hold_surfels(const ewa_cloud *cloud) {
 }
 
 TEST_WITHIN(test_points, enter, NULL) {
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     make_files(context, (lod_look){.colors = true});
     ewa_lod_build_stats stats;
     assert_int_equal(lod_build(context, files, FILES, "o.copc.laz", NULL, &stats), EWA_OK);
@@ -79,19 +79,17 @@ TEST_WITHIN(test_points, enter, NULL) {
     ewa_cloud_destroy(&output);
     // The three inputs and the output, nothing else.
     assert_int_equal(lod_clear(), FILES + 1);
-    ewa_context_destroy(&context);
 }
 
 TEST_WITHIN(test_threads, enter, NULL) {
     static const uint32_t threads[] = {1, 2, 4};
     char names[3][16];
     for (int i = 0; i < 3; i++) {
-        ewa_context *context = check_context(threads[i], NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[i], NULL);
         if (i == 0) make_files(context, (lod_look){.colors = true});
         snprintf(names[i], sizeof names[i], "%u.copc.laz", threads[i]);
         assert_int_equal(lod_build(context, files, FILES, names[i], NULL, NULL), EWA_OK);
         if (i > 0) lod_hold_same_files(names[0], names[i]);
-        ewa_context_destroy(&context);
     }
     lod_clear();
 }
@@ -99,7 +97,7 @@ TEST_WITHIN(test_threads, enter, NULL) {
 /// Normals and radii that points have stay as they are, in files of different kinds.
 TEST_WITHIN(test_own_surfels, enter, NULL) {
     static const char *const names[] = {"a.las", "b.ply"};
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     const lod_look look = {true, true};
     lod_save(lod_ground(context, 0, 20000, look), names[0]);
     lod_save(lod_ground(context, 20000, 10000, look), names[1]);
@@ -110,7 +108,6 @@ TEST_WITHIN(test_own_surfels, enter, NULL) {
     for (int i = 0; i < 2; i++) ewa_cloud_destroy(&inputs[i]);
     ewa_cloud_destroy(&output);
     assert_int_equal(lod_clear(), 3);
-    ewa_context_destroy(&context);
 }
 
 /// One scan of a square, from 3 above or below it, as PTX: its points are told from the scanner.
@@ -153,7 +150,7 @@ TEST_WITHIN(test_scanners, enter, NULL) {
 TEST_WITHIN(test_curvatures, enter, NULL) {
     enum { COUNT = 100000 }; // of one region
     static const char *const names[] = {"a.ply"};
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     for (int inward = -1; inward < 2; inward++) { // -1: without normals
         ewa_cloud *cloud = NULL;
         WITH_DEFAULTS(ewa_generate_options, sphere);
@@ -179,12 +176,11 @@ TEST_WITHIN(test_curvatures, enter, NULL) {
         ewa_cloud_destroy(&output);
         assert_int_equal(lod_clear(), 2);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_WITHIN(test_without_colors, enter, NULL) {
     static const char *const names[] = {"a.ply"};
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     lod_save(lod_ground(context, 0, 20000, (lod_look){.colors = false}), names[0]);
     assert_int_equal(lod_build(context, names, 1, "o.copc.laz", NULL, NULL), EWA_OK);
     ewa_cloud *input = lod_load(context, names[0]), *output = lod_load(context, "o.copc.laz");
@@ -194,7 +190,6 @@ TEST_WITHIN(test_without_colors, enter, NULL) {
     ewa_cloud_destroy(&input);
     ewa_cloud_destroy(&output);
     lod_clear();
-    ewa_context_destroy(&context);
 }
 
 /// Makes an octree of a cloud, which is destroyed, and loads what is in it.
@@ -212,31 +207,28 @@ static ewa_cloud *build_of(ewa_context *context, ewa_cloud *cloud, ewa_lod_build
 }
 
 TEST_WITHIN(test_few, enter, NULL) {
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     static const uint64_t counts[] = {0, 1, 2, 3, 10};
     for (int i = 0; i < 5; i++) {
         ewa_lod_build_stats stats;
-        ewa_cloud *made =
+        OWNED(ewa_cloud_destroy) ewa_cloud *made =
             build_of(context, lod_ground(context, 0, counts[i], (lod_look){.colors = true}), &stats);
         assert_int_equal(stats.point_count, counts[i]);
         assert_int_equal(ewa_cloud_point_count(made), counts[i]);
-        ewa_cloud *plain = lod_ground(context, 0, counts[i], (lod_look){.colors = true});
+        OWNED(ewa_cloud_destroy) ewa_cloud *plain = lod_ground(context, 0, counts[i], (lod_look){.colors = true});
         // Without a grid places are in steps of 10^-8 of the box or finer.
         if (counts[i]) lod_hold_same(&plain, 1, made, false);
-        ewa_cloud_destroy(&plain);
-        ewa_cloud_destroy(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST_WITHIN(test_one_place, enter, NULL) {
     enum { COUNT = 5000 };
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
     double *at = ewa_cloud_find(cloud, EWA_POSITION)->data;
     for (int i = 0; i < COUNT; i++) at[3 * i] = 0.5, at[3 * i + 1] = -0.25, at[3 * i + 2] = 1;
     ewa_lod_build_stats stats;
-    ewa_cloud *made = build_of(context, cloud, &stats);
+    OWNED(ewa_cloud_destroy) ewa_cloud *made = build_of(context, cloud, &stats);
     assert_int_equal(stats.point_count, COUNT);
     assert_int_equal(ewa_cloud_point_count(made), COUNT);
     ewa_bounds bounds;
@@ -246,32 +238,28 @@ TEST_WITHIN(test_one_place, enter, NULL) {
         assert_true(fabs(bounds.low_world[c] - place[c]) < 1e-3);
         assert_true(bounds.low_world[c] == bounds.high_world[c]);
     }
-    ewa_cloud_destroy(&made);
-    ewa_context_destroy(&context);
 }
 
 TEST_WITHIN(test_left_out, enter, NULL) {
     enum { COUNT = 5000 };
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
     double *at = ewa_cloud_find(cloud, EWA_POSITION)->data;
     at[0] = (double)NAN, at[3 * 77 + 1] = (double)INFINITY, at[3 * (COUNT - 1) + 2] = -(double)INFINITY;
     ewa_lod_build_stats stats;
-    ewa_cloud *made = build_of(context, cloud, &stats);
+    OWNED(ewa_cloud_destroy) ewa_cloud *made = build_of(context, cloud, &stats);
     assert_int_equal(stats.point_count, COUNT - 3);
     assert_int_equal(stats.left_out_count, 3);
     assert_int_equal(ewa_cloud_point_count(made), COUNT - 3);
     ewa_bounds bounds;
     assert_int_equal(ewa_cloud_measure(made, &bounds), EWA_OK);
     assert_int_equal(bounds.finite_count, COUNT - 3);
-    ewa_cloud_destroy(&made);
-    ewa_context_destroy(&context);
 }
 
 TEST_WITHIN(test_refusals, enter, NULL) {
     static const char *const names[] = {"a.ply", "nothing.ply"};
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     lod_save(lod_ground(context, 0, 100, (lod_look){.colors = true}), names[0]);
     assert_int_equal(lod_build(context, names, 2, "o.copc.laz", NULL, NULL), EWA_ERROR_IO);
     assert_non_null(strstr(log.text, "nothing.ply"));
@@ -283,7 +271,6 @@ TEST_WITHIN(test_refusals, enter, NULL) {
     options.memory_bytes = 1 << 20;
     assert_int_equal(lod_build(context, names, 1, "o.copc.laz", &options, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(lod_clear(), 1);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -21,10 +21,9 @@ static const char file[] = "ground.copc.laz";
 static int enter(void **state) {
     static const char *const names[] = {"ground.ply"};
     lod_clear();
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     lod_save(lod_ground(context, 0, POINTS, (lod_look){true, true}), names[0]);
     assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
-    ewa_context_destroy(&context);
     return 0;
 }
 
@@ -85,15 +84,12 @@ static shot *draw(ewa_lod *lod, ewa_context *context, const ewa_camera *camera,
 static shot *draw_plain(ewa_context *context, const char *name, const ewa_camera *camera) {
     shot *made = calloc(1, sizeof *made);
     assert_non_null(made);
-    ewa_cloud *cloud = lod_load(context, name);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = lod_load(context, name);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     const ewa_render_options options = over_black();
     const ewa_frame frame = {.rgba8 = made->rgba8};
     assert_int_equal(ewa_render(renderer, surfels, camera, &options, &frame, NULL), EWA_OK);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
     return made;
 }
 
@@ -133,12 +129,13 @@ static void hold_like(const char *what, const shot *plain, const shot *made, dou
 }
 
 TEST_ON(test_like_plain, 2) {
-    ewa_lod *lod = open_file(context, file);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
     static const double distances[] = {0.6, 2.2, 8, 25};
     for (int i = 0; i < 4; i++) {
         const ewa_camera camera = camera_at(distances[i]);
         const ewa_lod_options all = lod_options_of(0, 0.5, 1 << 30),
                               levels = lod_options_of(16, 0.5, 1 << 30);
+        OWNED(check_free)
         shot *plain = draw_plain(context, file, &camera), *points = draw(lod, context, &camera, &all),
              *merged = draw(lod, context, &camera, &levels);
         assert_true(filled(plain) > 0.005);
@@ -148,32 +145,25 @@ TEST_ON(test_like_plain, 2) {
         assert_int_equal(points->stats.band_count, 1);
         // From far away few surfels represent all points.
         if (i == 3) assert_true(merged->stats.surfel_count < points->stats.surfel_count / 2);
-        free(plain);
-        free(points);
-        free(merged);
     }
-    ewa_lod_close(&lod);
 }
 
 TEST(test_threads) {
     static const uint32_t threads[] = {1, 2, 4, 8};
     const ewa_camera camera = camera_at(2.2);
     const ewa_lod_options options = lod_options_of(16, 2, 1 << 30);
-    shot *first = NULL;
+    OWNED(check_free) shot *first = NULL;
     for (int i = 0; i < 4; i++) {
-        ewa_context *context = check_context(threads[i], NULL);
-        ewa_lod *lod = open_file(context, file);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[i], NULL);
+        OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
         shot *made = draw(lod, context, &camera, &options);
         if (first)
             hold_same(first, made);
         else
             first = made;
         if (first != made) free(made);
-        ewa_lod_close(&lod);
-        ewa_context_destroy(&context);
     }
     assert_true(filled(first) > 0.1);
-    free(first);
 }
 
 TEST_ON(test_memory, 2) {
@@ -181,9 +171,9 @@ TEST_ON(test_memory, 2) {
     static const double errors[] = {0, 16};
     const ewa_camera camera = camera_at(2.2);
     for (int e = 0; e < 2; e++) {
-        shot *first = NULL;
+        OWNED(check_free) shot *first = NULL;
         for (int i = 0; i < 3; i++) {
-            ewa_lod *lod = open_file(context, file);
+            OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
             const ewa_lod_options options = lod_options_of(errors[e], 0.5, memories[i]);
             shot *made = draw(lod, context, &camera, &options);
             print_message("memory %llu: %u bands, %llu surfels\n", (unsigned long long)memories[i],
@@ -197,55 +187,46 @@ TEST_ON(test_memory, 2) {
             } else {
                 first = made;
             }
-            ewa_lod_close(&lod);
         }
-        free(first);
     }
 }
 
 /// Where the nodes of no band fit, nothing is read.
-TEST(test_refused_memory) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+TEST_LOGGED(test_refused_memory, 2) {
     ewa_camera camera = camera_at(2.2);
     camera.fx_px *= 0.3, camera.fy_px *= 0.3; // 128 rows have all nodes
     const ewa_lod_options little = lod_options_of(0, 0.5, 1 << 24);
-    ewa_lod *lod = open_file(context, file);
-    shot *made = calloc(1, sizeof *made);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
+    OWNED(check_free) shot *made = calloc(1, sizeof *made);
     assert_non_null(made);
     assert_int_equal(try_draw(lod, context, &camera, &little, made), EWA_ERROR_LIMIT);
-    assert_non_null(strstr(log.text, "rows of the picture need 2"));
+    assert_non_null(strstr(log->text, "rows of the picture need 2"));
     assert_int_equal(made->stats.loaded_count, 0);
-    ewa_lod_close(&lod);
-    free(made);
-    ewa_context_destroy(&context);
 }
 
 /// No more than 8 surfels for a covered pixel, from wherever it is seen; a few nodes are few surfels.
 TEST_ON(test_bound, 2) {
     enum { FEW_NODES = 8 };
     static const double distances[] = {1, 2.2, 3.1, 6, 16, 64};
-    ewa_lod *lod = open_file(context, file);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const ewa_camera camera = camera_at(distances[i]);
-        shot *made = draw(lod, context, &camera, NULL);
+        OWNED(check_free) shot *made = draw(lod, context, &camera, NULL);
         const double each = (double)made->stats.surfel_count / (filled(made) * WIDTH_PX * HEIGHT_PX);
         print_message("distance %g: %u nodes, %.2f surfels a pixel, coarser %.2f\n", distances[i], made->stats.node_count, each,
                       made->stats.coarser);
         assert_true(each <= 8 || made->stats.node_count <= FEW_NODES);
-        free(made);
     }
-    ewa_lod_close(&lod);
 }
 
 /// As many surfels as were asked for, about: what fades counts twice, and the root is never left out.
 TEST_ON(test_max_splats, 2) {
     static const uint64_t counts[] = {UINT64_C(1) << 50, 400000, 200000, 100000, 1};
-    ewa_lod *lod = open_file(context, file);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
     const ewa_camera camera = camera_at(5);
     ewa_lod_options options = lod_options_of(3, 0.25, 1 << 30);
     options.max_splats = 1;
-    shot *root = draw(lod, context, &camera, &options), *before = NULL;
+    OWNED(check_free) shot *root = draw(lod, context, &camera, &options), *before = NULL;
     assert_int_equal(root->stats.node_count, 1);
     const uint64_t next_count = 120000; // of the root and its children
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
@@ -266,20 +247,18 @@ TEST_ON(test_max_splats, 2) {
     // All points are all points.
     const ewa_lod_options all = lod_options_of(0, 0.5, 1 << 30);
     options.error = 0;
-    shot *points = draw(lod, context, &camera, &all), *few = draw(lod, context, &camera, &options);
+    OWNED(check_free) shot *points = draw(lod, context, &camera, &all), *few = draw(lod, context, &camera, &options);
     hold_same(points, few);
-    free(root), free(before), free(points), free(few);
-    ewa_lod_close(&lod);
 }
 
 /// Going near, with few surfels: no value changes much more from picture to picture than in those of all points.
 TEST_ON(test_no_jumps, 2) {
     enum { FRAMES = 12, JUMP = 8 };
-    ewa_lod *lod = open_file(context, file);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
     ewa_lod_options options = lod_options_of(3, 1, 1 << 30);
     options.max_splats = 180000;
     const ewa_lod_options all = lod_options_of(0, 1, 1 << 30);
-    shot *before = NULL, *before_plain = NULL;
+    OWNED(check_free) shot *before = NULL, *before_plain = NULL;
     size_t jumps = 0, values = 0;
     uint64_t most = 0, fewest = UINT64_MAX;
     for (int f = 0; f < FRAMES; f++) {
@@ -298,8 +277,6 @@ TEST_ON(test_no_jumps, 2) {
     print_message("%zu of %zu values jump; %llu to %llu surfels\n", jumps, values, (unsigned long long)fewest, (unsigned long long)most);
     assert_true(most > fewest);
     assert_true((double)jumps < 8e-4 * (double)values);
-    free(before), free(before_plain);
-    ewa_lod_close(&lod);
 }
 
 /// Draws an octree, or without one all points of the file, in parts of pixels.
@@ -314,11 +291,9 @@ static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *ca
     if (lod) {
         assert_int_equal(ewa_lod_render(lod, renderer, camera, &options, lod_options, &frame, &made->stats), EWA_OK);
     } else {
-        ewa_cloud *cloud = lod_load(context, file);
-        ewa_surfels *surfels = check_surfels(cloud, NULL);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = lod_load(context, file);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
         assert_int_equal(ewa_render(renderer, surfels, camera, &options, &frame, NULL), EWA_OK);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
     ewa_renderer_destroy(&renderer);
     return made;
@@ -327,19 +302,16 @@ static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *ca
 /// From far away parts of pixels are nearer to the truth, as many as the nodes' surfels ask for.
 TEST_ON(test_supersampling, 2) {
     const ewa_camera camera = camera_at(40);
-    shot *truth = draw_parts(NULL, context, &camera, NULL, EWA_MAX_SUPERSAMPLING);
+    OWNED(check_free) shot *truth = draw_parts(NULL, context, &camera, NULL, EWA_MAX_SUPERSAMPLING);
     const ewa_lod_options options = lod_options_of(255, 0.5, 1 << 30);
     double found[4];
     for (uint32_t n = 0; n < 4; n++) {
-        ewa_lod *lod = open_file(context, file);
-        shot *made = draw_parts(lod, context, &camera, &options, n);
+        OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
+        OWNED(check_free) shot *made = draw_parts(lod, context, &camera, &options, n);
         found[n] = psnr_db(truth, made);
         print_message("%u: %.1f dB, %llu surfels\n", n, found[n], (unsigned long long)made->stats.surfel_count);
-        free(made);
-        ewa_lod_close(&lod);
     }
     assert_true(found[0] > found[1] + 3 && found[2] > found[1] + 3 && found[3] > found[1] + 2);
-    free(truth);
 }
 
 /// Where nobody says how many parts: one near by, and from far away as many as take no more surfels than a picture that octrees fill.
@@ -369,10 +341,9 @@ TEST_ON(test_supersampling_in_bands, 2) {
     for (uint32_t n = 0; n < 4; n += 2) {
         shot *made[2];
         for (int i = 0; i < 2; i++) {
-            ewa_lod *lod = open_file(context, file);
+            OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
             const ewa_lod_options options = lod_options_of(0, 0.5, i ? 1 << 24 : 1 << 30);
             made[i] = draw_parts(lod, context, &camera, &options, n);
-            ewa_lod_close(&lod);
         }
         assert_true(made[0]->stats.band_count == 1 && made[1]->stats.band_count > 1);
         hold_same(made[0], made[1]);
@@ -386,8 +357,8 @@ TEST_ON(test_load, 2) {
     enum { MAX_CALLS = 400 };
     const ewa_camera camera = camera_at(1);
     ewa_lod_options options = lod_options_of(16, 0.5, 1 << 30);
-    ewa_lod *lod = open_file(context, file);
-    shot *whole = draw(lod, context, &camera, &options), *made = calloc(1, sizeof *made);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
+    OWNED(check_free) shot *whole = draw(lod, context, &camera, &options), *made = calloc(1, sizeof *made);
     assert_non_null(made);
     ewa_lod_close(&lod);
     lod = open_file(context, file);
@@ -402,14 +373,11 @@ TEST_ON(test_load, 2) {
     print_message("%d calls, first %.1f dB\n", calls, first_db);
     assert_int_equal(made->stats.missing_count, 0);
     hold_same(whole, made);
-    free(whole);
-    free(made);
-    ewa_lod_close(&lod);
 }
 
 /// Points of a box are those of the whole file that lie in it.
 TEST_ON(test_read, 2) {
-    ewa_lod *lod = open_file(context, file);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
     ewa_lod_info info;
     ewa_lod_describe(lod, &info);
     assert_int_equal(info.point_count, POINTS);
@@ -455,11 +423,10 @@ TEST_ON(test_read, 2) {
     ewa_cloud_destroy(&expected);
     ewa_cloud_destroy(&all);
     free(inside);
-    ewa_lod_close(&lod);
 }
 
 TEST_ON(test_sample, 2) {
-    ewa_lod *lod = open_file(context, file);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
     ewa_cloud *few = NULL, *some = NULL, *all = NULL;
     assert_int_equal(ewa_lod_sample(lod, 1, &few), EWA_OK);
     assert_int_equal(ewa_lod_sample(lod, POINTS / 2, &some), EWA_OK);
@@ -476,7 +443,6 @@ TEST_ON(test_sample, 2) {
     assert_int_equal(ewa_lod_sample(lod, 0, &few), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&some);
     ewa_cloud_destroy(&all);
-    ewa_lod_close(&lod);
 }
 
 /// Copies the file with another user in the record of surfels, as one that another program has made.
@@ -484,17 +450,16 @@ static void strip(const char *from, const char *to) {
     static const uint8_t user[18] = {'e', 'w', 'a', [16] = 1}; // 16 bytes of name, the number 1
     char path[512];
     size_t size_bytes, found = 0;
-    uint8_t *bytes = scratch_read(scratch_path(from, path), &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(scratch_path(from, path), &size_bytes);
     for (size_t at = 0; at + sizeof user <= size_bytes; at++)
         if (memcmp(bytes + at, user, sizeof user) == 0) bytes[at] = 'x', found++;
     assert_int_equal(found, 1);
     scratch_write(scratch_path(to, path), bytes, size_bytes);
-    free(bytes);
 }
 
 TEST_ON(test_without_levels, 2) {
     strip(file, "plain.copc.laz");
-    ewa_lod *lod = open_file(context, "plain.copc.laz");
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, "plain.copc.laz");
     ewa_lod_info info;
     ewa_lod_describe(lod, &info);
     assert_false(info.merged);
@@ -516,7 +481,6 @@ TEST_ON(test_without_levels, 2) {
     free(made);
     free(bands);
     free(coarse);
-    ewa_lod_close(&lod);
 }
 
 /// Points of a node that lie in a part of it without a node are drawn, too: other programs leave such parts
@@ -556,15 +520,13 @@ TEST_ON(test_parts_without_nodes, 2) {
     ewa_cloud_destroy(&all);
     ewa_cloud_destroy(&corner);
     ewa_cloud_destroy(&prototype);
-    ewa_lod *lod = open_file(context, "gaps.copc.laz");
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, "gaps.copc.laz");
     const ewa_camera camera = camera_at(2.2);
     const ewa_lod_options options = lod_options_of(0, 0.5, 1 << 30);
+    OWNED(check_free)
     shot *plain = draw_plain(context, "gaps.copc.laz", &camera),
          *made = draw(lod, context, &camera, &options);
     hold_like("parts without nodes", plain, made, 45);
-    free(plain);
-    free(made);
-    ewa_lod_close(&lod);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -23,7 +23,7 @@ static ewa_representative surfel_of(uint64_t cell, uint32_t index, const float n
 }
 
 static ewa_representatives merge(const ewa_representative *fine, uint32_t count) {
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_representatives merged = {.count = 0};
     const ewa_representatives all = {.items = (ewa_representative *)fine, .count = count};
     assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, UINT32_MAX, &merged), EWA_OK);
@@ -31,7 +31,6 @@ static ewa_representatives merge(const ewa_representative *fine, uint32_t count)
     kept.items = malloc((merged.count + (size_t)1) * sizeof *kept.items);
     memcpy(kept.items, merged.items, merged.count * sizeof *kept.items);
     ewa_representatives_free(context, &merged);
-    ewa_context_destroy(&context);
     return kept;
 }
 
@@ -171,7 +170,7 @@ TEST(test_cells) {
 /// Of numbers, what represents members has the mean by area of the finite ones, or that of most area, of its sheet alone.
 TEST(test_numbers) {
     enum { COUNT = 8, NUMBERS = 2 };
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_representative of[COUNT];
     // Six of one sheet, one of another, one in another cell; the limit of radii is 3.
     static const float radii[COUNT] = {1, 1, 1, 2, 1, 9, 1, 5};
@@ -193,13 +192,12 @@ TEST(test_numbers) {
     assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 3, UINT32_MAX, &merged), EWA_OK);
     assert_true(isnan(merged.numbers[1]) && merged.numbers[3] == 70);
     ewa_representatives_free(context, &merged);
-    ewa_context_destroy(&context);
 }
 
 /// Codes that are kept apart are not mixed, so that few of many are still there; sheets of one code are as without.
 TEST(test_codes_apart) {
     enum { COUNT = 12 };
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_representative of[COUNT];
     double codes[COUNT];
     for (uint32_t k = 0; k < COUNT; k++) {
@@ -228,7 +226,6 @@ TEST(test_codes_apart) {
     assert_true(merged.count < COUNT);
     hold_near(area, COUNT);
     ewa_representatives_free(context, &merged);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

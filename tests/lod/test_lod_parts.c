@@ -33,13 +33,12 @@ static ewa_cloud *with_classes(ewa_cloud *cloud) {
 /// Makes the whole at once and in parts, for all tests.
 static int enter(void **state) {
     lod_clear();
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     const lod_look look = {true, true};
     lod_save(with_classes(lod_ground(context, 0, POINTS / 3, look)), whole_files[0]);
     lod_save(with_classes(lod_ground(context, POINTS / 3, POINTS - POINTS / 3, look)), whole_files[1]);
     make_parts(context, whole_files, 2, part_files, part_points);
     assert_int_equal(lod_build(context, whole_files, 2, "whole.copc.laz", NULL, NULL), EWA_OK);
-    ewa_context_destroy(&context);
     return 0;
 }
 
@@ -67,14 +66,13 @@ TEST(test_orders) {
     }
     assert_int_equal(sum, POINTS);
     for (size_t k = 0; k < 3; k++) {
-        ewa_context *context = check_context((uint32_t)k + 1, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context((uint32_t)k + 1, NULL);
         const char *names[PARTS];
         for (int i = 0; i < PARTS; i++) names[i] = part_files[orders[k][i]];
         ewa_lod_build_stats stats;
         assert_int_equal(merge(context, names, PARTS, "m.copc.laz", &stats), EWA_OK);
         assert_int_equal(stats.point_count, POINTS);
         lod_hold_same_files("whole.copc.laz", "m.copc.laz");
-        ewa_context_destroy(&context);
     }
     char path[512];
     unlink(scratch_path("m.copc.laz", path));
@@ -89,22 +87,19 @@ static void hold_refused(ewa_context *context, const char *const *names, uint32_
     assert_false(lod_is_there("x.copc.laz"));
 }
 
-TEST(test_wrong_parts) {
-    check_log log;
-    ewa_context *context = check_context(1, &log);
-    hold_refused(context, (const char *const[]){"p0", "p1"}, 2, &log);
-    hold_refused(context, (const char *const[]){"p0", "p1", "p1"}, 3, &log);
-    assert_non_null(strstr(log.text, "twice"));
-    hold_refused(context, (const char *const[]){"p0", "p1", "p2", "p0"}, 4, &log);
-    hold_refused(context, (const char *const[]){"p0", "p1", "a.ply"}, 3, &log);
-    hold_refused(context, (const char *const[]){"whole.copc.laz"}, 1, &log);
+TEST_LOGGED(test_wrong_parts, 1) {
+    hold_refused(context, (const char *const[]){"p0", "p1"}, 2, log);
+    hold_refused(context, (const char *const[]){"p0", "p1", "p1"}, 3, log);
+    assert_non_null(strstr(log->text, "twice"));
+    hold_refused(context, (const char *const[]){"p0", "p1", "p2", "p0"}, 4, log);
+    hold_refused(context, (const char *const[]){"p0", "p1", "a.ply"}, 3, log);
+    hold_refused(context, (const char *const[]){"whole.copc.laz"}, 1, log);
     // One of other points.
     static const char *const other_files[] = {"c.ply"}, *const other_parts[] = {"q0", "q1", "q2"};
     lod_save(lod_ground(context, 5, POINTS / 10, (lod_look){true, true}), "c.ply");
     make_parts(context, other_files, 1, other_parts, NULL);
-    hold_refused(context, (const char *const[]){"p0", "q1", "p2"}, 3, &log);
-    assert_non_null(strstr(log.text, "other points"));
-    ewa_context_destroy(&context);
+    hold_refused(context, (const char *const[]){"p0", "q1", "p2"}, 3, log);
+    assert_non_null(strstr(log->text, "other points"));
 }
 
 /// Fewer regions than parts, or none at all.
@@ -126,11 +121,11 @@ TEST_ON(test_empty_parts, 2) {
 TEST(test_damage) {
     enum { PLACES = 60 };
     check_log log;
-    ewa_context *context = check_context(2, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &log);
     check_random random = {5};
     char path[512];
     size_t size_bytes;
-    uint8_t *bytes = scratch_read(scratch_path("p1", path), &size_bytes);
+    OWNED(check_free) uint8_t *bytes = scratch_read(scratch_path("p1", path), &size_bytes);
     const char *const names[] = {"p0", "bad", "p2"};
     for (size_t i = 0; i < PLACES; i++) {
         // All of the head first, then anywhere.
@@ -150,8 +145,6 @@ TEST(test_damage) {
     scratch_write(scratch_path("bad", path), bytes, size_bytes);
     assert_int_equal(merge(context, names, 3, "x.copc.laz", NULL), EWA_OK);
     lod_hold_same_files("whole.copc.laz", "x.copc.laz");
-    free(bytes);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

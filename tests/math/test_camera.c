@@ -220,14 +220,12 @@ TEST(test_frame_of_a_point_is_of_size_one) {
     assert_near(camera.height_px / camera.fy_px, 1, 1e-9);
 }
 
-TEST(test_check_names_the_member) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_check_names_the_member, 1) {
     const ewa_camera good = default_camera();
     ewa_camera camera = good;
     for (int i = 0; i < 12; i++) camera.world_to_camera[i] *= 250; // a scale is allowed
     assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     const struct {
         size_t offset;
         double value;
@@ -248,18 +246,17 @@ TEST(test_check_names_the_member) {
         camera = good;
         memcpy((char *)&camera + cases[i].offset, &cases[i].value, sizeof(double));
         assert_int_equal(ewa_camera_check(context, &camera), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, cases[i].name));
+        assert_non_null(strstr(log->text, cases[i].name));
     }
     camera = good;
     camera.width_px = 65537;
     assert_int_equal(ewa_camera_check(context, &camera), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "width_px"));
+    assert_non_null(strstr(log->text, "width_px"));
     camera = good;
     memset(camera.world_to_camera, 0, 12 * sizeof(double));
     assert_int_equal(ewa_camera_check(context, &camera), EWA_ERROR_ARGUMENT);
     memset(&camera, 0, sizeof camera); // never initialised
     assert_int_equal(ewa_camera_check(context, &camera), EWA_ERROR_ARGUMENT);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

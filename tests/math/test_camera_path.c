@@ -82,7 +82,7 @@ TEST(test_keys) {
         for (int k = 0; k < 12; k++) keys[i].world_to_camera[k] *= 1 + 0.1 * i;
     }
     for (int closed = 0; closed < 2; closed++) {
-        ewa_camera_path *path = make(keys, 7, closed);
+        OWNED(ewa_camera_path_destroy) ewa_camera_path *path = make(keys, 7, closed);
         ewa_camera camera, near;
         for (int i = 0; i < 7; i++) {
             assert_int_equal(ewa_camera_path_at(path, i, &camera), EWA_OK);
@@ -104,7 +104,6 @@ TEST(test_keys) {
         assert_int_equal(ewa_camera_path_at(path, NAN, &camera), EWA_ERROR_ARGUMENT);
         ewa_camera_path_at(path, 2.25, &camera);
         assert_near(camera.fx_px, 0.75 * keys[2].fx_px + 0.25 * keys[3].fx_px, 1e-9);
-        ewa_camera_path_destroy(&path);
     }
 }
 
@@ -118,7 +117,7 @@ TEST(test_circle) {
     for (size_t k = 0; k < 3; k++) {
         ewa_camera keys[24];
         circle(keys, cases[k].count);
-        ewa_camera_path *path = make(keys, cases[k].count, true);
+        OWNED(ewa_camera_path_destroy) ewa_camera_path *path = make(keys, cases[k].count, true);
         ewa_camera last = keys[0], camera;
         double last_eye[3] = {5, 0, 2}, eye[3];
         for (int i = 1; i <= 360; i++) {
@@ -133,7 +132,6 @@ TEST(test_circle) {
             last = camera;
             memcpy(last_eye, eye, sizeof eye);
         }
-        ewa_camera_path_destroy(&path);
     }
 }
 
@@ -149,7 +147,7 @@ TEST(test_smooth) {
         keys[i] = look(eye[0], eye[1], eye[2], x, y, 0);
     }
     for (int closed = 0; closed < 2; closed++) {
-        ewa_camera_path *path = make(keys, KEYS, closed);
+        OWNED(ewa_camera_path_destroy) ewa_camera_path *path = make(keys, KEYS, closed);
         for (int i = 1; i < KEYS - 1 + closed; i++) {
             const double step = 1e-3;
             double eyes[5][3];
@@ -174,7 +172,6 @@ TEST(test_smooth) {
                     assert_near(after / step, before / step, 0.02);
                 }
         }
-        ewa_camera_path_destroy(&path);
     }
 }
 
@@ -188,20 +185,19 @@ TEST(test_pole) {
         const double pivot[3] = {0}, axis[3] = {0, 1, 0};
         assert_int_equal(ewa_camera_orbit(&keys[i], pivot, axis, 720.0 * i / KEYS), EWA_OK);
     }
-    ewa_camera_path *path = make(keys, KEYS, true);
+    OWNED(ewa_camera_path_destroy) ewa_camera_path *path = make(keys, KEYS, true);
     ewa_camera last = keys[0], camera;
     for (int i = 1; i <= FRAMES; i++) {
         assert_int_equal(ewa_camera_path_at(path, i * (double)KEYS / FRAMES, &camera), EWA_OK);
         assert_near(turn_deg(&last, &camera), 720.0 / FRAMES, 1e-9);
         last = camera;
     }
-    ewa_camera_path_destroy(&path);
 }
 
 /// Few and odd keys: a straight line at even speed, one key, twice the same key, opposite directions.
 TEST(test_few) {
     ewa_camera camera, keys[3] = {look(0, 0, 0, 1, 0, 0), look(2, 4, 6, 3, 4, 6), look(2, 4, 6, 3, 4, 6)};
-    ewa_camera_path *path = make(keys, 2, false);
+    OWNED(ewa_camera_path_destroy) ewa_camera_path *path = make(keys, 2, false);
     double eye[3];
     assert_int_equal(ewa_camera_path_at(path, 0.25, &camera), EWA_OK);
     ewa_camera_eye(&camera, eye);
@@ -224,11 +220,10 @@ TEST(test_few) {
         assert_int_equal(ewa_camera_path_at(path, i / 16.0, &camera), EWA_OK);
         assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
     }
-    ewa_camera_path_destroy(&path);
 }
 
 TEST(test_refused) {
-    ewa_camera_path *path = NULL;
+    OWNED(ewa_camera_path_destroy) ewa_camera_path *path = NULL;
     ewa_camera keys[2] = {look(0, 0, 0, 1, 0, 0), look(2, 4, 6, 3, 4, 6)};
     assert_int_equal(ewa_camera_path_create(context, keys, 0, false, &path), EWA_ERROR_ARGUMENT);
     keys[1].width_px = 99;
@@ -240,7 +235,6 @@ TEST(test_refused) {
     keys[1].world_to_camera[0] = NAN;
     assert_int_equal(ewa_camera_path_create(context, keys, 2, false, &path), EWA_ERROR_ARGUMENT);
     assert_null(path);
-    ewa_camera_path_destroy(&path);
 }
 
 TEST(test_orbit) {

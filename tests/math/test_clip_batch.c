@@ -158,13 +158,12 @@ TEST(test_touching) {
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 8; c++) b->in[c][i] = segments[i][c];
     for (int m = 0; m < 3; m++) {
-        ewa_context *context = check_context_of(1, masks[m]);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(1, masks[m]);
         assert_int_equal(ewa_clip_segments(context, &b->segments, &b->clips), EWA_OK);
         for (int i = 0; i < 3; i++) {
             assert_int_equal(b->visible[i], EWA_VISIBLE_POSITIVE);
             assert_true(b->out[0][i] == alpha[i][0] && b->out[1][i] == alpha[i][1]);
         }
-        ewa_context_destroy(&context);
     }
     free_batch(b);
 }
@@ -178,7 +177,7 @@ TEST(test_same_bytes) {
     assert_int_equal(ewa_clip_segments(plain, &reference->segments, &reference->clips), EWA_OK);
     for (size_t m = 0; m < 3; m++)
         for (size_t t = 0; t < 3; t++) {
-            ewa_context *context = check_context_of(threads[t], masks[m]);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context_of(threads[t], masks[m]);
             feclearexcept(FE_ALL_EXCEPT);
             memset(b->out, 0, OUTPUTS * sizeof *b->out);
             assert_int_equal(ewa_clip_segments(context, &b->segments, &b->clips), EWA_OK);
@@ -190,11 +189,10 @@ TEST(test_same_bytes) {
             assert_int_equal(ewa_clip_segments(context, &b->segments, &b->clips_without_ends), EWA_OK);
             assert_memory_equal(b->visible, reference->visible, sizeof b->visible);
             assert_memory_equal(b->out, reference->out, 4 * sizeof *b->out);
-            ewa_context_destroy(&context);
         }
     // Any number of segments, from any address: the same as the beginning of all.
     for (uint64_t count = 0; count < 40; count++) {
-        ewa_context *context = check_context_of(1, EWA_CPU_ALL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(1, EWA_CPU_ALL);
         batch *few = make_batch();
         few->segments.count = count;
         for (int c = 0; c < 8; c++) few->segments.end[c / 4][c % 4] = reference->in[c] + 3;
@@ -205,7 +203,6 @@ TEST(test_same_bytes) {
         }
         assert_memory_equal(few->visible, reference->visible + 3, count);
         free_batch(few);
-        ewa_context_destroy(&context);
     }
     ewa_context_destroy(&plain);
     free_batch(reference);

@@ -63,7 +63,8 @@ TEST(test_formulas) {
     for (int n = 0; n < 3; n++) {
         double before = NAN;
         for (uint32_t workers = 1; workers < 5; workers += 3) {
-            ewa_context *context = check_context(workers, NULL);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(workers, NULL);
+            OWNED(ewa_image_free)
             ewa_image image = noise(context, channels[n][0], 2, 0.2), truth = noise(context, channels[n][1], 3, 0);
             uint64_t masked = 0;
             for (size_t i = 0; n == 2 && i < WIDTH * HEIGHT; i += 7, masked++) truth.pixels[4 * i + 3] = 0.5f;
@@ -77,16 +78,13 @@ TEST(test_formulas) {
                 fail_msg("%d: %g, SSIM %g instead of %g, %g", n, found.mean_squared_error, found.ssim, squares, ssim);
             if (workers > 1) assert_true(found.ssim == before);
             before = found.ssim;
-            ewa_image_free(&image);
-            ewa_image_free(&truth);
-            ewa_context_destroy(&context);
         }
     }
 }
 
 /// The same is alike; a difference of 0.1 everywhere is 20 dB; where nothing counts there is no number.
 TEST_ON(test_known, 1) {
-    ewa_image image = noise(context, 3, 2, 0.1), other;
+    OWNED(ewa_image_free) ewa_image image = noise(context, 3, 2, 0.1), other;
     ewa_image_quality found;
     assert_int_equal(ewa_image_compare(&image, &image, &found), EWA_OK);
     assert_true(isinf(found.psnr_db) && fabs(found.ssim - 1) < 1e-12);
@@ -102,20 +100,17 @@ TEST_ON(test_known, 1) {
         }
     assert_int_equal(ewa_image_compare(&image, &other, &found), EWA_OK);
     assert_true(fabs(found.psnr_db - 20) < 1e-3);
-    ewa_image small;
+    OWNED(ewa_image_free) ewa_image small;
     assert_int_equal(ewa_image_create(context, WIDTH, 5, 3, &small), EWA_OK);
     assert_int_equal(ewa_image_compare(&small, &image, &found), EWA_ERROR_ARGUMENT);
     small.channel_count = 2;
     assert_int_equal(ewa_image_compare(&small, &image, &found), EWA_ERROR_ARGUMENT);
     small.channel_count = 3;
-    ewa_image_free(&small);
-    ewa_image_free(&image);
-    ewa_image_free(&other);
 }
 
 /// Half of red over a background of 0.25 is what sRGB numbers make of it; without one it stays as it is.
 TEST_ON(test_transparent, 1) {
-    ewa_image half;
+    OWNED(ewa_image_free) ewa_image half;
     assert_int_equal(ewa_image_create(context, WIDTH, HEIGHT, 4, &half), EWA_OK);
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) half.pixels[4 * i] = half.pixels[4 * i + 3] = i ? 0.5f : 0;
     ewa_photo photo = {.image = &half};
@@ -137,7 +132,6 @@ TEST_ON(test_transparent, 1) {
     assert_null(loaded.pixels);
     photo.image = NULL;
     assert_int_equal(ewa_photo_load(context, &photo, background, &loaded), EWA_ERROR_ARGUMENT);
-    ewa_image_free(&half);
 }
 
 TEST(test_memory) {

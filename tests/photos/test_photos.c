@@ -43,8 +43,8 @@ static double gains_off(const photo_scene *scene, const ewa_photo_report *per_ph
 
 TEST(test_fit_is_sharper_than_means) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
     double held_out_db[4];
     for (int m = 0; m < 4; m++) {
         const ewa_photos_options options = options_of((ewa_photos_method)m);
@@ -63,15 +63,13 @@ TEST(test_fit_is_sharper_than_means) {
         assert_true(fabs(report.psnr_db - report.held_out_psnr_db) < 0.5);
     }
     assert_true(held_out_db[EWA_PHOTOS_FIT] > held_out_db[EWA_PHOTOS_MEAN] + 4);
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// What 20 % of gains cost where nobody looks for them.
 TEST(test_exposure_is_needed) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0.03);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0.03);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
     ewa_photos_report none, gain, offset;
     ewa_photo_report per_photo[PHOTOS];
@@ -85,8 +83,6 @@ TEST(test_exposure_is_needed) {
     print_message("off %.2f dB, gain %.2f dB, gain and offset %.2f dB\n", none.psnr_db, gain.psnr_db, offset.psnr_db);
     assert_true(gain.psnr_db > none.psnr_db + 3);
     assert_true(offset.psnr_db > gain.psnr_db + 0.2);
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Paints a disc into a photograph, as of somebody who walks by.
@@ -101,8 +97,8 @@ static void cover(photo_scene *scene, uint32_t index, double x_px, double y_px, 
 
 TEST(test_what_walks_by_is_rejected) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.1, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.1, 0);
     static const uint32_t covered[] = {1, 4, 8, 12};
     for (int i = 0; i < 4; i++) cover(scene, covered[i], 60 + 5 * i, 64, 13);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
@@ -124,8 +120,6 @@ TEST(test_what_walks_by_is_rejected) {
                   mean.held_out_psnr_db);
     assert_true(robust.held_out_psnr_db > plain.held_out_psnr_db + 5);
     assert_true(robust.held_out_psnr_db > mean.held_out_psnr_db + 6);
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// The bytes of what a run gives.
@@ -145,8 +139,8 @@ TEST(test_threads_and_order_change_no_byte) {
     enum { BYTES = 5 * 2000 * sizeof(float) };
     static uint8_t first[BYTES], other[BYTES];
     for (uint32_t threads = 1; threads <= 5; threads += 2) {
-        ewa_context *context = check_context(threads, NULL);
-        photo_scene *scene = photo_scene_make(context, 2000, 8, 100, 0.2, 0);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
+        OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, 2000, 8, 100, 0.2, 0);
         ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
         options.hold_out = 0, options.pose_steps = 1, options.vignetting = true;
         color(scene, &options, NULL, NULL);
@@ -163,8 +157,6 @@ TEST(test_threads_and_order_change_no_byte) {
         // Reports keep the caller's order.
         assert_true(fabs(log(per_photo[0].gain[0] / per_photo[7].gain[0]) -
                          log(scene->gain[7][0] / scene->gain[0][0])) < 0.01);
-        photo_scene_free(&scene);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -173,8 +165,8 @@ TEST(test_held_out_changes_no_byte) {
     (void)state;
     enum { BYTES = 5 * 1000 * sizeof(float) };
     static uint8_t first[BYTES], other[BYTES];
-    ewa_context *context = check_context(2, NULL);
-    photo_scene *scene = photo_scene_make(context, 1000, 8, 80, 0.2, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, 1000, 8, 80, 0.2, 0);
     for (int method = 0; method < 4; method++) {
         ewa_photos_options options = options_of((ewa_photos_method)method);
         options.hold_out = 4;
@@ -200,15 +192,13 @@ TEST(test_held_out_changes_no_byte) {
             scene->images[i] = kept[i];
         }
     }
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Colours of what is hidden, and of clouds without photographs on one side, stay.
 TEST(test_unseen_points_keep_their_colors) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, 2000, 12, 100, 0, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, 2000, 12, 100, 0, 0);
     uint8_t *old = check_add(scene->cloud, EWA_COLOR, EWA_U8, 4);
     for (uint32_t i = 0; i < 2000; i++) old[4 * i] = 255, old[4 * i + 1] = 0, old[4 * i + 2] = 255, old[4 * i + 3] = 255;
     ewa_photos_options chosen = options_of(EWA_PHOTOS_FIT);
@@ -231,14 +221,12 @@ TEST(test_unseen_points_keep_their_colors) {
         if (count == 0) assert_true(rgba[0] == 1 && rgba[1] == 0 && rgba[2] == 1 && rgba[3] == 1);
         if (count > 0) assert_true(rgba[1] > 0.05f);
     }
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_photographs_are_halved) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, 1000, 4, 301, 0, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, 1000, 4, 301, 0, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_MEAN);
     options.hold_out = 0;
     ewa_photo_report per_photo[4];
@@ -250,8 +238,6 @@ TEST(test_photographs_are_halved) {
     color(scene, &options, &whole, per_photo);
     assert_int_equal(per_photo[0].width_px, 301);
     assert_true(fabs(halved.psnr_db - whole.psnr_db) < 3);
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 static void fails(photo_scene *scene, uint32_t count, const ewa_photos_options *options, const check_log *log,
@@ -266,8 +252,8 @@ static void fails(photo_scene *scene, uint32_t count, const ewa_photos_options *
 TEST(test_bad_input_is_named) {
     (void)state;
     check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
-    photo_scene *scene = photo_scene_make(context, 1000, 4, 60, 0, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, &log);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, 1000, 4, 60, 0, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_MEAN);
     fails(scene, 0, NULL, &log, "no photographs");
     options.pose_steps = 2;
@@ -289,8 +275,6 @@ TEST(test_bad_input_is_named) {
     scene->photos[2] = good;
     for (int i = 0; i < 4; i++) scene->photos[i].camera.world_to_camera[11] = -100; // all is behind
     fails(scene, 4, NULL, &log, "none of 4 photographs");
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Turns and shifts cameras, so that what is seen moves by about `off_px`.
@@ -314,8 +298,8 @@ static void disturb(photo_scene *scene, double off_px) {
 /// Photographs whose poses are a pixel off are as good, after pose steps, as those with the true ones.
 TEST(test_pose_steps) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
     ewa_photos_report exact, off, refined;
     ewa_photo_report per_photo[PHOTOS];
@@ -337,16 +321,14 @@ TEST(test_pose_steps) {
         for (int r = 0; r < 3; r++) // a turn is still one
             assert_true(fabs(m[4 * r] * m[4 * r] + m[4 * r + 1] * m[4 * r + 1] + m[4 * r + 2] * m[4 * r + 2] - 1) < 1e-4);
     }
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// A lens that leaves 70 % of the light in the corners.
 TEST(test_vignetting) {
     (void)state;
     static const double lens[2] = {-0.4, 0.1};
-    ewa_context *context = check_context(0, NULL);
-    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
     for (uint32_t i = 0; i < PHOTOS; i++) {
         ewa_image *image = &scene->images[i];
         const double middle[2] = {0.5 * image->width_px, 0.5 * image->height_px};
@@ -367,8 +349,6 @@ TEST(test_vignetting) {
     assert_true(corrected.held_out_psnr_db > as_it_is.held_out_psnr_db + 4);
     for (double r2 = 0.1; r2 < 0.45; r2 += 0.1) // the ball ends there
         assert_true(fabs(r2 * (corrected.vignetting[0] - lens[0] + r2 * (corrected.vignetting[1] - lens[1]))) < 0.003);
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// What progress has told; it gives up when so many calls are left.
@@ -397,8 +377,8 @@ static bool note_phase(void *user, const char *stage, double fraction) {
 TEST(test_progress_names_phases_and_gives_up) {
     (void)state;
     phases seen = {.calls_left = -1};
-    ewa_context *context = check_context_telling(0, note_phase, &seen);
-    photo_scene *scene = photo_scene_make(context, 300, 3, 40, 0, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_telling(0, note_phase, &seen);
+    OWNED(photo_scene_free) photo_scene *scene = photo_scene_make(context, 300, 3, 40, 0, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
     options.hold_out = 0, options.rounds = 1;
     assert_int_equal(ewa_cloud_color_from_photos(scene->cloud, scene->photos, 3, &options, NULL, NULL), EWA_OK);
@@ -413,8 +393,6 @@ TEST(test_progress_names_phases_and_gives_up) {
         ewa_attribute_read_f32(ewa_cloud_find(scene->cloud, EWA_COLOR), 0, 300, after);
         assert_memory_equal(before, after, sizeof before);
     }
-    photo_scene_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_nothing_is_left_where_memory_ends) {

@@ -67,9 +67,9 @@ static ewa_image photograph(ewa_context *context, const ewa_camera *camera, cons
 }
 
 static void hold(const char *name, const ewa_lens *lens, double least_share) {
-    ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
     const ewa_camera camera = camera_of();
-    ewa_image image = photograph(context, &camera, lens), pinhole;
+    OWNED(ewa_image_free) ewa_image image = photograph(context, &camera, lens), pinhole;
     assert_int_equal(ewa_image_undistort(&image, &camera, lens, &pinhole), EWA_OK);
     assert_int_equal(pinhole.channel_count, 4);
     double square = 0, left_alone = 0;
@@ -98,9 +98,6 @@ static void hold(const char *name, const ewa_lens *lens, double least_share) {
     assert_true(db > 38);
     assert_true(db > before_db + 10);
     assert_true(count > least_share * WIDTH * HEIGHT);
-    ewa_image_free(&image);
-    ewa_image_free(&pinhole);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_lenses_are_undone) {
@@ -114,10 +111,10 @@ TEST(test_lenses_are_undone) {
 /// A lens that turns back shows its rim once.
 TEST(test_what_a_lens_does_not_show_is_transparent) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
     const ewa_camera camera = camera_of();
     const ewa_lens lens = {EWA_LENS_BROWN, {-1.5}, {0}}; // r (1 - 1.5 r^2) turns back at 0.47
-    ewa_image image, pinhole;
+    OWNED(ewa_image_free) ewa_image image, pinhole;
     assert_int_equal(ewa_image_create(context, WIDTH, HEIGHT, 3, &image), EWA_OK);
     for (uint32_t i = 0; i < 3 * WIDTH * HEIGHT; i++) image.pixels[i] = 1;
     assert_int_equal(ewa_image_undistort(&image, &camera, &lens, &pinhole), EWA_OK);
@@ -128,15 +125,12 @@ TEST(test_what_a_lens_does_not_show_is_transparent) {
             if (r > 0.48) assert_true(alpha == 0);
             if (r < 0.45) assert_true(alpha == 1);
         }
-    ewa_image_free(&image);
-    ewa_image_free(&pinhole);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_bad_lenses_are_named) {
     (void)state;
     check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, &log);
     ewa_camera camera = camera_of();
     ewa_lens lens = {EWA_LENS_BROWN, {0, NAN}, {0}};
     ewa_image image, pinhole;
@@ -148,7 +142,6 @@ TEST(test_bad_lenses_are_named) {
     assert_non_null(strstr(log.text, "220 x 160"));
     assert_null(pinhole.pixels);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 static void write_text(const char *name, const char *text) {
@@ -162,7 +155,7 @@ static void write_text(const char *name, const char *text) {
 TEST(test_lists_have_lenses_and_paths) {
     (void)state;
     check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, &log);
     write_text("undistort_a b.jpg", "x");
     write_text("undistort.json",
                "{\"camera_model\": \"OPENCV\", \"w\": 40, \"h\": 30, \"fl_x\": 35, \"k1\": 0.1, \"p2\": -0.02, \"frames\": ["
@@ -197,7 +190,6 @@ TEST(test_lists_have_lenses_and_paths) {
     assert_int_equal(ewa_photo_list_load(context, "undistort.json", NULL, &list), EWA_ERROR_FORMAT);
     assert_non_null(strstr(log.text, "camera 0 has no name"));
     remove("undistort.json"), remove("undistort_a b.jpg");
-    ewa_context_destroy(&context);
 }
 
 /// Numbers of COLMAP's models go where the formulas have them.
@@ -217,7 +209,7 @@ TEST(test_lenses_of_colmap) {
         {"RADIAL_FISHEYE 40 30 35 20 15 0.1 0.2", {EWA_LENS_FISHEYE, {0.1, 0.2}, {0}}},
     };
     check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, &log);
     mkdir("undistort_model", 0777);
     write_text("undistort_model/images.txt", "1 1 0 0 0 0 0 0 7 a b.jpg\n\n");
     write_text("undistort_model/a b.jpg", "x");
@@ -225,14 +217,13 @@ TEST(test_lenses_of_colmap) {
         char text[200];
         snprintf(text, sizeof text, "7 %s\n", models[i].line);
         write_text("undistort_model/cameras.txt", text);
-        ewa_photo_list *list;
+        OWNED(ewa_photo_list_destroy) ewa_photo_list *list;
         uint32_t count;
         assert_int_equal(ewa_photo_list_load(context, "undistort_model", NULL, &list), EWA_OK);
         const ewa_lens *lens = &ewa_photo_list_photos(list, &count)->lens, *wanted = &models[i].lens;
         assert_int_equal(lens->model, wanted->model);
         for (int k = 0; k < 6; k++) assert_true(lens->radial[k] == wanted->radial[k]);
         for (int k = 0; k < 2; k++) assert_true(lens->tangential[k] == wanted->tangential[k]);
-        ewa_photo_list_destroy(&list);
     }
     assert_int_equal(log.count, 0);
     write_text("undistort_model/cameras.txt", "7 FOV 40 30 35 35 20 15 0.1\n");
@@ -240,7 +231,6 @@ TEST(test_lenses_of_colmap) {
     assert_int_equal(ewa_photo_list_load(context, "undistort_model", NULL, &list), EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(log.text, "model FOV"));
     remove("undistort_model/cameras.txt"), remove("undistort_model/images.txt"), remove("undistort_model/a b.jpg"), rmdir("undistort_model");
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

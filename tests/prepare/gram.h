@@ -29,7 +29,7 @@ static inline owned make_gram(uint32_t side, double sigma) {
     const uint32_t size = side * side;
     const int reach = 1 + (int)ceil(6 * sigma);
     check_random random = {7};
-    double *at = malloc(2 * (size_t)size * sizeof *at);
+    OWNED(check_free) double *at = malloc(2 * (size_t)size * sizeof *at);
     const size_t maximum = (size_t)size * (size_t)((2 * reach + 1) * (2 * reach + 1));
     owned made = {.row_starts = malloc((size + 1) * sizeof(uint64_t)),
                   .columns = malloc(maximum * sizeof(uint32_t)),
@@ -55,7 +55,6 @@ static inline owned make_gram(uint32_t side, double sigma) {
     }
     made.row_starts[size] = entries;
     made.view = (ewa_sparse){size, made.row_starts, made.columns, made.values};
-    free(at);
     return made;
 }
 

@@ -128,8 +128,8 @@ TEST_ON(test_means_of_channels_agree, 1) {
 
 /// The mean on a small copy of a picture is near that on the picture itself.
 TEST_ON(test_means_of_levels_agree, 1) {
-    ewa_image image;
-    ewa_texture texture;
+    OWNED(ewa_image_free) ewa_image image;
+    OWNED(ewa_texture_free) ewa_texture texture;
     make_picture(context, 203, 91, 3, &image);
     assert_int_equal(ewa_texture_make(&image, EWA_TEXTURE_CLAMP, EWA_TEXTURE_REPEAT, &texture), EWA_OK);
     check_random random = {9};
@@ -152,8 +152,6 @@ TEST_ON(test_means_of_levels_agree, 1) {
     ewa_texture_mean(&texture, ewa_texture_level_of(&texture, &needle), &needle, color);
     assert_true(color[0] > 0 && color[0] < 1);
     ewa_texture_mean(&texture, 0, &point, color);
-    ewa_texture_free(&texture);
-    ewa_image_free(&image);
 }
 
 static ewa_cloud *make_object(ewa_context *context, ewa_object object, uint64_t count, double radius_scale) {
@@ -183,12 +181,12 @@ static void fill(const ewa_image *image, float r, float g, float b) {
 TEST_ON(test_a_constant_stays, 0) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_CUBE, EWA_OBJECT_TERRAIN};
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_create(context, 50, 30, 3, &image), EWA_OK);
     fill(&image, 0.7f, 3, 0);
     for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++)
         for (int filter = 0; filter <= EWA_TEXTURE_OPTIMAL; filter++) {
-            ewa_cloud *cloud = make_object(context, objects[k], 3000, 1.5);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, objects[k], 3000, 1.5);
             const ewa_acquire_options options = options_of((ewa_texture_filter)filter);
             ewa_acquire_report report;
             assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, &report), EWA_OK);
@@ -199,19 +197,17 @@ TEST_ON(test_a_constant_stays, 0) {
                 assert_float_equal(color[3 * i + 1], 3, 5e-5);
                 assert_float_equal(color[3 * i + 2], 0, 1e-5);
             }
-            ewa_cloud_destroy(&cloud);
         }
-    ewa_image_free(&image);
 }
 
 /// Charts of no extent: every point has the pixel that it is on, whatever is beside that, as palettes have it.
 TEST_ON(test_a_palette_is_no_picture, 0) {
     enum { POINTS = 3000 };
-    ewa_image palette;
+    OWNED(ewa_image_free) ewa_image palette;
     assert_int_equal(ewa_image_create(context, 3, 1, 3, &palette), EWA_OK);
     memcpy(palette.pixels, (const float[9]){0, 0, 1, 0.7f, 0.1f, 0.2f, 1, 1, 0}, 9 * sizeof *palette.pixels);
     for (int filter = 0; filter <= EWA_TEXTURE_OPTIMAL; filter++) {
-        ewa_cloud *cloud = make_object(context, EWA_OBJECT_CUBE, POINTS, 1.5);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_CUBE, POINTS, 1.5);
         void *texcoord, *gradient[2];
         assert_int_equal(ewa_cloud_add(cloud, EWA_TEXCOORD, EWA_F32, 2, &texcoord), EWA_OK);
         assert_int_equal(ewa_cloud_add(cloud, EWA_TEXCOORD_S, EWA_F32, 3, &gradient[0]), EWA_OK);
@@ -222,9 +218,7 @@ TEST_ON(test_a_palette_is_no_picture, 0) {
         assert_int_equal(ewa_cloud_acquire(cloud, &palette, 1, &options, NULL), EWA_OK);
         const float *color = check_stream(cloud, EWA_COLOR);
         for (int i = 0; i < 3 * POINTS; i++) assert_float_equal(color[i], palette.pixels[3 + i % 3], 1e-5);
-        ewa_cloud_destroy(&cloud);
     }
-    ewa_image_free(&palette);
 }
 
 /// The drawn colour at a place of the plane z = 0: kernels of one sigma, normalised.
@@ -246,7 +240,7 @@ static void reconstruct(const ewa_cloud *cloud, double x, double y, double color
 
 /// RMS of the drawn first channel against the picture's continuous function, over the middle of the plane.
 static double error_of(const ewa_cloud *cloud, const ewa_image *image, const ewa_acquire_options *options) {
-    ewa_texture texture;
+    OWNED(ewa_texture_free) ewa_texture texture;
     assert_int_equal(ewa_texture_make(image, options->wrap_s, options->wrap_t, &texture), EWA_OK);
     check_random random = {77};
     const double variance = options->pixel_sigma_px * options->pixel_sigma_px;
@@ -261,7 +255,6 @@ static double error_of(const ewa_cloud *cloud, const ewa_image *image, const ewa
         reconstruct(cloud, x, y, drawn);
         sum += (drawn[0] - truth[0]) * (drawn[0] - truth[0]);
     }
-    ewa_texture_free(&texture);
     return sqrt(sum / PLACES);
 }
 
@@ -281,7 +274,7 @@ static double measure(ewa_context *context, const ewa_image *image, ewa_texture_
 
 /// A ramp of 1 over the plane, 50 points wide: within an eighth of the step from point to point.
 TEST_ON(test_a_ramp_is_kept, 0) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_create(context, 200, 200, 3, &image), EWA_OK);
     for (uint32_t i = 0; i < 200 * 200; i++)
         for (uint32_t c = 0; c < 3; c++) image.pixels[3 * i + c] = (float)(i % 200) / 200;
@@ -297,11 +290,10 @@ TEST_ON(test_a_ramp_is_kept, 0) {
                  optimal = measure(context, &image, EWA_TEXTURE_OPTIMAL, EWA_FIT_NORMALIZED);
     print_message("ramp: EWA %.2g, optimal %.2g of its height\n", ewa, optimal);
     assert_true(optimal < 0.0025 && optimal < 0.7 * ewa);
-    ewa_image_free(&image);
 }
 
 TEST_ON(test_optimal_is_better, 0) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     assert_int_equal(ewa_image_create(context, 100, 100, 3, &image), EWA_OK);
     for (uint32_t i = 0; i < 100 * 100; i++)
         for (uint32_t c = 0; c < 3; c++) image.pixels[3 * i + c] = (i % 100 / 8 + i / 100 / 8) % 2 ? 0 : 1;
@@ -312,20 +304,19 @@ TEST_ON(test_optimal_is_better, 0) {
     print_message("checker: nearest %.3f, EWA %.3f, optimal %.3f, by the sum %.3f\n", nearest, ewa, optimal,
                   sum);
     assert_true(optimal < 0.7 * ewa && optimal < 0.7 * nearest && optimal < 0.7 * sum);
-    ewa_image_free(&image);
 }
 
 /// The gradient of what is minimised, by quadrature: nearly nothing at the optimal colours, much elsewhere.
 TEST_ON(test_the_gradient_vanishes, 0) {
     enum { POINTS = 100, STEPS = 700 };
-    ewa_image image;
-    ewa_texture texture;
+    OWNED(ewa_image_free) ewa_image image;
+    OWNED(ewa_texture_free) ewa_texture texture;
     make_picture(context, 40, 40, 5, &image);
     assert_int_equal(ewa_texture_make(&image, EWA_TEXTURE_CLAMP, EWA_TEXTURE_CLAMP, &texture), EWA_OK);
     ewa_acquire_options options = options_of(EWA_TEXTURE_EWA);
     options.pixel_sigma_px = 1;
     options.ridge = 1e-6;
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, POINTS, 1.5);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, POINTS, 1.5);
     assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_OK);
     float filtered[POINTS], optimal[POINTS];
     for (int i = 0; i < POINTS; i++) filtered[i] = check_stream(cloud, EWA_COLOR)[3 * i];
@@ -359,19 +350,16 @@ TEST_ON(test_the_gradient_vanishes, 0) {
     }
     print_message("gradient: %.2g of that at the filtered colours\n", sqrt(optimal2 / filtered2));
     assert_true(optimal2 < 1e-3 * filtered2);
-    ewa_cloud_destroy(&cloud);
-    ewa_texture_free(&texture);
-    ewa_image_free(&image);
 }
 
 TEST(test_threads_change_nothing) {
     static const uint32_t threads[] = {1, 2, 7};
-    float *first = NULL;
+    OWNED(check_free) float *first = NULL;
     for (int k = 0; k < 3; k++) {
-        ewa_context *context = check_context(threads[k], NULL);
-        ewa_image image;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[k], NULL);
+        OWNED(ewa_image_free) ewa_image image;
         make_picture(context, 64, 48, 11, &image);
-        ewa_cloud *cloud = make_object(context, EWA_OBJECT_TORUS, 5000, 1.5);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_TORUS, 5000, 1.5);
         assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
         const float *color = check_stream(cloud, EWA_COLOR);
         if (k == 0) {
@@ -380,11 +368,7 @@ TEST(test_threads_change_nothing) {
             memcpy(first, color, 5000 * 3 * sizeof *first);
         }
         assert_memory_equal(first, color, 5000 * 3 * sizeof *first);
-        ewa_cloud_destroy(&cloud);
-        ewa_image_free(&image);
-        ewa_context_destroy(&context);
     }
-    free(first);
 }
 
 /// Straight alpha comes back; colours are multiplied; what has no coordinates or no picture is white.
@@ -394,7 +378,7 @@ TEST_ON(test_alpha_tint_and_gaps, 0) {
     for (int i = 0; i < 64; i++)
         for (int c = 0; c < 4; c++) image[0].pixels[4 * i + c] = c == 0 ? 0.1f : 0.5f; // premultiplied
     for (int filter = 0; filter <= EWA_TEXTURE_OPTIMAL; filter++) {
-        ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 400, 1.5);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 400, 1.5);
         void *data = NULL;
         float *texcoord = (float *)ewa_cloud_find(cloud, EWA_TEXCOORD)->data;
         texcoord[0] = NAN;
@@ -418,16 +402,15 @@ TEST_ON(test_alpha_tint_and_gaps, 0) {
                 assert_float_equal(color[4 * i], 1, 1e-6);
                 assert_float_equal(color[4 * i + 3], 1, 1e-6);
             }
-        ewa_cloud_destroy(&cloud);
     }
     ewa_image_free(&image[0]);
 }
 
 /// Points that are no surfels, at one place, or without area on the picture: finite colours.
 TEST_ON(test_odd_points, 2) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     make_picture(context, 32, 32, 2, &image);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 2000, 1.5);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 2000, 1.5);
     float *p = (float *)ewa_cloud_find(cloud, EWA_POSITION)->data,
           *n = (float *)ewa_cloud_find(cloud, EWA_NORMAL)->data,
           *radius = (float *)ewa_cloud_find(cloud, EWA_RADIUS)->data,
@@ -445,16 +428,12 @@ TEST_ON(test_odd_points, 2) {
     ewa_cloud_destroy(&cloud);
     cloud = make_object(context, EWA_OBJECT_PLANE, 1, 1.5);
     assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
-    ewa_cloud_destroy(&cloud);
-    ewa_image_free(&image);
 }
 
-TEST(test_wrong_use_is_named) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_image image;
+TEST_LOGGED(test_wrong_use_is_named, 1) {
+    OWNED(ewa_image_free) ewa_image image;
     make_picture(context, 8, 8, 2, &image);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 100, 1.5);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 100, 1.5);
     static const struct {
         size_t offset;
         double value;
@@ -467,7 +446,7 @@ TEST(test_wrong_use_is_named) {
         ewa_acquire_options options = options_of(EWA_TEXTURE_EWA);
         memcpy((char *)&options + wrong[i].offset, &wrong[i].value, sizeof wrong[i].value);
         assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, wrong[i].name));
+        assert_non_null(strstr(log->text, wrong[i].name));
     }
     ewa_acquire_options options = options_of((ewa_texture_filter)3);
     assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, &options, NULL), EWA_ERROR_ARGUMENT);
@@ -483,11 +462,8 @@ TEST(test_wrong_use_is_named) {
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
         ewa_cloud_remove(cloud, needed[i]);
         assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, needed[i]));
+        assert_non_null(strstr(log->text, needed[i]));
     }
-    ewa_cloud_destroy(&cloud);
-    ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_failing_allocation_is_clean) {
@@ -539,7 +515,7 @@ TEST_ON(test_charts_of_objects, 0) {
                                          EWA_OBJECT_TORUS, EWA_OBJECT_TERRAIN};
     for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++) {
         enum { COUNT = 40000 };
-        ewa_cloud *cloud = make_object(context, objects[k], COUNT, 1.5);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, objects[k], COUNT, 1.5);
         const float *p = check_stream(cloud, EWA_POSITION), *at = check_stream(cloud, EWA_TEXCOORD),
                     *n = check_stream(cloud, EWA_NORMAL);
         const float *gradient[2] = {check_stream(cloud, EWA_TEXCOORD_S), check_stream(cloud, EWA_TEXCOORD_T)};
@@ -568,7 +544,6 @@ TEST_ON(test_charts_of_objects, 0) {
             assert_true(errors[c] < 1e-3 * steps[c]);
         }
         assert_true(compared > COUNT / 10);
-        ewa_cloud_destroy(&cloud);
     }
 }
 

@@ -182,8 +182,8 @@ static double ramp_at(int channel, double x_px, double y_px) {
 
 /// Alone, cut by a line, so that its mean is not its centre; and under products, on one chart and on two.
 TEST_ON(test_looks_follow_the_jacobian, 1) {
-    ewa_image image;
-    ewa_texture texture;
+    OWNED(ewa_image_free) ewa_image image;
+    OWNED(ewa_texture_free) ewa_texture texture;
     assert_int_equal(ewa_image_create(context, 64, 64, 3, &image), EWA_OK);
     for (int i = 0; i < 64 * 64; i++)
         for (int c = 0; c < 3; c++) image.pixels[3 * i + c] = (float)ramp_at(c, i % 64 + 0.5, i / 64 + 0.5);
@@ -226,8 +226,6 @@ TEST_ON(test_looks_follow_the_jacobian, 1) {
                      y_px = 33 - 2 * x + 4 * y + (k == 3 ? 2 : 0);
         for (int c = 0; c < 3; c++) assert_float_equal(color[c], ramp_at(c, x_px, y_px), 2e-4);
     }
-    ewa_texture_free(&texture);
-    ewa_image_free(&image);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -44,7 +44,7 @@ TEST_ON(test_borders, 2) {
     static const sampling kinds[] = {REGULAR, JITTERED, SCATTERED, HEXAGONAL, POISSON};
     for (int k = 0; k < 10; k++) {
         const bool hole = k >= 5;
-        ewa_cloud *cloud = with_borders(context, kinds[k % 5], EWA_SHAPE_DISC, hole);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = with_borders(context, kinds[k % 5], EWA_SHAPE_DISC, hole);
         const float *p = check_stream(cloud, EWA_POSITION), *to = check_stream(cloud, EWA_BORDER);
         const float *radius = check_stream(cloud, EWA_RADIUS);
         double off = 0, over = 0;
@@ -62,7 +62,6 @@ TEST_ON(test_borders, 2) {
         print_message("%d%s: %llu at borders, %.3f off, %.3f over\n", (int)kinds[k % 5], hole ? ", hole" : "",
                       (unsigned long long)near, off / (double)near, over);
         assert_true(near >= 4 * (SIDE - 16) && off / (double)near < 0.4 && over < 3);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -101,7 +100,7 @@ TEST_ON(test_cells, 2) {
 TEST_ON(test_borders_as_streams, 2) {
     enum { POINTS = 20000 };
     for (int s = 0; s < 2; s++) {
-        ewa_cloud *cloud = with_borders(context, POISSON, (ewa_surfel_shape)s, false);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = with_borders(context, POISSON, (ewa_surfel_shape)s, false);
         assert_true((ewa_cloud_find(cloud, EWA_BORDER) != NULL) == (s == EWA_SHAPE_DISC));
         assert_true((ewa_cloud_find(cloud, EWA_CLIP0) != NULL) == (s == EWA_SHAPE_ELLIPSE));
         // The nearest point of a line is where the border is.
@@ -124,10 +123,9 @@ TEST_ON(test_borders_as_streams, 2) {
         }
         if (s == EWA_SHAPE_ELLIPSE) print_message("ellipses: %.0f lines, %.3f off\n", lines, off / lines);
         assert_true(s == EWA_SHAPE_DISC || (lines > 300 && off < 0.3 * lines));
-        ewa_cloud_destroy(&cloud);
     }
     check_random random = {3};
-    ewa_cloud *sphere = check_cloud_of(context, POINTS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *sphere = check_cloud_of(context, POINTS);
     float *p = check_add(sphere, EWA_POSITION, EWA_F32, 3);
     for (int i = 0; i < POINTS; i++) {
         const double z = check_uniform(&random, -1, 1), angle = check_uniform(&random, 0, 6.283185307179586);
@@ -137,14 +135,13 @@ TEST_ON(test_borders_as_streams, 2) {
     ewa_estimate_options options = check_estimate_options();
     assert_int_equal(ewa_cloud_estimate(&sphere, &options), EWA_OK);
     assert_null(ewa_cloud_find(sphere, EWA_BORDER));
-    ewa_cloud_destroy(&sphere);
 }
 
 /// Points strewn in space are no surface; a plane has no such attribute, and keeps none of before.
 TEST_ON(test_surfaceness, 2) {
     enum { COUNT = 4000 };
     for (int kind = 0; kind < 4; kind++) { // a plane; in space; a plane and a wire above it; a box's edge
-        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, COUNT);
         float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
         float *before = check_add(cloud, EWA_SURFACENESS, EWA_F32, 1);
         check_random random = {7};
@@ -172,7 +169,6 @@ TEST_ON(test_surfaceness, 2) {
         if (kind == 1) assert_true(strewn > 0.7 * COUNT);
         if (kind == 2) assert_true(wires > 0.9 * COUNT / 40 && strewn - wires < 0.001 * COUNT);
         if (kind == 3) assert_true(strewn < 0.01 * COUNT);
-        ewa_cloud_destroy(&cloud);
     }
 }
 

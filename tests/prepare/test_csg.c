@@ -191,18 +191,17 @@ static double distance_back(ewa_context *context, const solid_pair *pair, ewa_cs
     double largest = 0;
     uint64_t tried = 0;
     for (int k = 0; k < 2; k++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *samples = make(context, pair->object[k], 1500, pair->size_world[k], pair->place_world[k]);
         double origin_world[3], other[3];
         ewa_cloud_origin(samples, origin_world);
-        double *position = read_stream(samples, EWA_POSITION, 3);
+        OWNED(check_free) double *position = read_stream(samples, EWA_POSITION, 3);
         for (uint64_t i = 0; i < ewa_cloud_point_count(samples); i++) {
             for (uint64_t c = 0; c < 3; c++) position[3 * i + c] += origin_world[c];
             if (side_of(operation, k) * nearest_of(pair, 1 - k, &position[3 * i], other) < 1e-3) continue;
             largest = fmax(largest, distance_from_discs(s, &position[3 * i], within));
             tried++;
         }
-        free(position);
-        ewa_cloud_destroy(&samples);
     }
     assert_true(tried > 100);
     return largest;
@@ -229,6 +228,7 @@ TEST_ON(test_against_closed_form, 0) {
             spacing = fmax(spacing, sqrt(area / (double)pair->points[k]));
         }
         for (int operation = 0; operation < 3; operation++) {
+            OWNED(ewa_cloud_destroy)
             ewa_cloud *result = combine(operands[0], operands[1], (ewa_csg_operation)operation);
             plain_surfels s = read_surfels(result);
             double centers;
@@ -243,7 +243,6 @@ TEST_ON(test_against_closed_form, 0) {
             assert_true(centers < 0.5 * spacing);
             assert_true(back < 0.5 * spacing);
             free_surfels(&s);
-            ewa_cloud_destroy(&result);
         }
         for (int k = 0; k < 2; k++) ewa_cloud_destroy(&operands[k]);
     }
@@ -297,7 +296,7 @@ TEST_ON(test_lines_of_planes, 0) {
         assert_int_equal(ewa_cloud_transform(operands[k], matrices[k]), EWA_OK);
     }
     for (int operation = 0; operation < 3; operation++) {
-        ewa_cloud *result = combine(operands[0], operands[1], (ewa_csg_operation)operation);
+        OWNED(ewa_cloud_destroy) ewa_cloud *result = combine(operands[0], operands[1], (ewa_csg_operation)operation);
         plain_surfels s = read_surfels(result);
         uint64_t lines = 0, exact = 0;
         double worst = 0;
@@ -313,7 +312,6 @@ TEST_ON(test_lines_of_planes, 0) {
         assert_true(lines > 1000);
         assert_int_equal(exact, lines);
         free_surfels(&s);
-        ewa_cloud_destroy(&result);
     }
     for (int k = 0; k < 2; k++) ewa_cloud_destroy(&operands[k]);
 }
@@ -330,9 +328,7 @@ static uint64_t count_on_plane(const ewa_cloud *cloud, double at) {
     return count;
 }
 
-TEST(test_coinciding_faces) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_coinciding_faces, 0) {
     const double here[3] = {0, 0, 0}, beside[3] = {2, 0, 0};
     ewa_cloud *a = make(context, EWA_OBJECT_CUBE, 3000, 2, here);
     ewa_cloud *b = make(context, EWA_OBJECT_CUBE, 2500, 2, beside);
@@ -345,7 +341,7 @@ TEST(test_coinciding_faces) {
     ewa_cloud *twice = combine(a, a, EWA_CSG_UNION), *both = combine(a, a, EWA_CSG_INTERSECTION);
     assert_int_equal(count_on_plane(twice, 1), count_on_plane(a, 1));
     assert_int_equal(count_on_plane(both, 1), count_on_plane(a, 1));
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     ewa_cloud *nothing = combine(a, a, EWA_CSG_DIFFERENCE);
     print_message("%llu surfels: %llu in union with itself, %llu without itself\n", (unsigned long long)count,
                   (unsigned long long)ewa_cloud_point_count(twice),
@@ -357,42 +353,36 @@ TEST(test_coinciding_faces) {
     free_surfels(&specks);
     ewa_cloud *all[] = {a, b, joined, cut, twice, both, nothing};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) ewa_cloud_destroy(&all[i]);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_far_apart_and_within, 0) {
     const double here[3] = {0, 0, 0}, far[3] = {50, 0, 0};
-    ewa_cloud *a = make(context, EWA_OBJECT_SPHERE, 2000, 2, here);
-    ewa_cloud *b = make(context, EWA_OBJECT_SPHERE, 1000, 2, far);
-    ewa_cloud *inner = make(context, EWA_OBJECT_SPHERE, 1000, 1, here);
+    OWNED(ewa_cloud_destroy) ewa_cloud *a = make(context, EWA_OBJECT_SPHERE, 2000, 2, here);
+    OWNED(ewa_cloud_destroy) ewa_cloud *b = make(context, EWA_OBJECT_SPHERE, 1000, 2, far);
+    OWNED(ewa_cloud_destroy) ewa_cloud *inner = make(context, EWA_OBJECT_SPHERE, 1000, 1, here);
     const struct {
         const ewa_cloud *b;
         uint64_t counts[3];
     } rows[] = {{b, {3000, 0, 2000}}, {inner, {2000, 1000, 3000}}};
     for (int row = 0; row < 2; row++)
         for (int operation = 0; operation < 3; operation++) {
-            ewa_cloud *result = combine(a, rows[row].b, (ewa_csg_operation)operation);
+            OWNED(ewa_cloud_destroy) ewa_cloud *result = combine(a, rows[row].b, (ewa_csg_operation)operation);
             assert_int_equal(ewa_cloud_point_count(result), rows[row].counts[operation]);
-            ewa_cloud_destroy(&result);
         }
     // The inner sphere's normals are turned.
-    ewa_cloud *shell = combine(a, inner, EWA_CSG_DIFFERENCE);
+    OWNED(ewa_cloud_destroy) ewa_cloud *shell = combine(a, inner, EWA_CSG_DIFFERENCE);
     plain_surfels s = read_surfels(shell);
     for (uint64_t i = 0; i < s.count; i++) {
         const double *p = &s.position[3 * i], *n = &s.normal[3 * i];
         assert_true((p[0] * n[0] + p[1] * n[1] + p[2] * n[2] > 0) == (length_of(p) > 0.75));
     }
     free_surfels(&s);
-    ewa_cloud_destroy(&shell);
-    ewa_cloud_destroy(&a);
-    ewa_cloud_destroy(&b);
-    ewa_cloud_destroy(&inner);
 }
 
 /// The points of a cloud whose coordinate `axis` is below a limit.
 static ewa_cloud *cut_off(const ewa_cloud *cloud, int axis, double limit) {
     const uint64_t count = ewa_cloud_point_count(cloud);
-    double *position = read_stream(cloud, EWA_POSITION, 3);
+    OWNED(check_free) double *position = read_stream(cloud, EWA_POSITION, 3);
     uint64_t *indices = malloc((count + 1) * sizeof *indices), kept = 0;
     assert_non_null(indices);
     for (uint64_t i = 0; i < count; i++)
@@ -400,28 +390,24 @@ static ewa_cloud *cut_off(const ewa_cloud *cloud, int axis, double limit) {
     ewa_cloud *part = NULL;
     assert_int_equal(ewa_cloud_select(cloud, indices, kept, &part), EWA_OK);
     free(indices);
-    free(position);
     return part;
 }
 
-TEST(test_open_operands) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_open_operands, 0) {
     const double here[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     ewa_cloud *ball = make(context, EWA_OBJECT_SPHERE, 20000, 2, here);
     ewa_cloud *other = make(context, EWA_OBJECT_SPHERE, 3000, 0.5, up), *result = NULL;
     ewa_cloud *bowl = cut_off(ball, 2, 0), *dented = cut_off(ball, 2, 0.9);
     assert_int_equal(ewa_cloud_csg(other, bowl, NULL, &result), EWA_ERROR_ARGUMENT);
     assert_null(result);
-    assert_non_null(strstr(log.text, "operand B is not closed"));
+    assert_non_null(strstr(log->text, "operand B is not closed"));
     assert_int_equal(ewa_cloud_csg(bowl, other, NULL, &result), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "operand A is not closed"));
+    assert_non_null(strstr(log->text, "operand A is not closed"));
     // A missing cap is too small for the sum of normals to tell, but leads from outside to inside.
     assert_int_equal(ewa_cloud_csg(other, dented, NULL, &result), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "operand B is not closed"));
+    assert_non_null(strstr(log->text, "operand B is not closed"));
     ewa_cloud *all[] = {ball, other, bowl, dented};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) ewa_cloud_destroy(&all[i]);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_same_bytes) {
@@ -430,11 +416,9 @@ TEST(test_same_bytes) {
     for (uint32_t t = 0; t < 3; t++) {
         contexts[t] = check_context(t * t + 1, NULL);
         const double here[3] = {0, 0, 0}, there[3] = {0.8, 0.7, 0.6};
-        ewa_cloud *a = make(contexts[t], EWA_OBJECT_CUBE, 20000, 2, here);
-        ewa_cloud *b = make(contexts[t], EWA_OBJECT_SPHERE, 20000, 2, there);
+        OWNED(ewa_cloud_destroy) ewa_cloud *a = make(contexts[t], EWA_OBJECT_CUBE, 20000, 2, here);
+        OWNED(ewa_cloud_destroy) ewa_cloud *b = make(contexts[t], EWA_OBJECT_SPHERE, 20000, 2, there);
         results[t] = combine(a, b, EWA_CSG_DIFFERENCE);
-        ewa_cloud_destroy(&a);
-        ewa_cloud_destroy(&b);
     }
     for (uint32_t t = 1; t < 3; t++) {
         assert_int_equal(ewa_cloud_point_count(results[t]), ewa_cloud_point_count(results[0]));
@@ -464,25 +448,21 @@ TEST_ON(test_overflow, 1) {
     memcpy(position, numbers, sizeof numbers);
     position[0] = 1e200;
     for (int k = 0; k < 2; k++) {
-        ewa_cloud *both = combine(clouds[k], clouds[1 - k], EWA_CSG_UNION);
-        double *found = read_stream(both, EWA_POSITION, 3);
+        OWNED(ewa_cloud_destroy) ewa_cloud *both = combine(clouds[k], clouds[1 - k], EWA_CSG_UNION);
+        OWNED(check_free) double *found = read_stream(both, EWA_POSITION, 3);
         assert_true(ewa_cloud_point_count(both) > POINTS);
         for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(both); i++) assert_true(fabs(found[i]) < 2);
-        free(found);
-        ewa_cloud_destroy(&both);
     }
     for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
 }
 
-TEST(test_refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_refused, 0) {
     const double here[3] = {0, 0, 0};
     ewa_cloud *ball = make(context, EWA_OBJECT_SPHERE, 500, 2, here), *bare = NULL, *result = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &bare), EWA_OK);
     assert_int_equal(ewa_cloud_csg(NULL, ball, NULL, &result), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_csg(ball, bare, NULL, &result), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "operand B"));
+    assert_non_null(strstr(log->text, "operand B"));
     WITH_DEFAULTS(ewa_csg_options, options);
     options.operation = (ewa_csg_operation)3;
     assert_int_equal(ewa_cloud_csg(ball, ball, &options, &result), EWA_ERROR_ARGUMENT);
@@ -499,12 +479,11 @@ TEST(test_refused) {
     position[0] = NAN;
     radius[0] = radius[1] = 1;
     assert_int_equal(ewa_cloud_csg(flat, ball, NULL, &result), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "none of the 2 points"));
+    assert_non_null(strstr(log->text, "none of the 2 points"));
     assert_null(result);
     ewa_cloud_destroy(&flat);
     ewa_cloud_destroy(&ball);
     ewa_cloud_destroy(&bare);
-    ewa_context_destroy(&context);
 }
 
 /// Two operands of their own and what is left of them.

@@ -49,11 +49,10 @@ static int compare(const void *a, const void *b) {
 
 /// The value below which a share of all lies.
 static double percentile(const float *values, uint64_t count, double share) {
-    float *sorted = malloc(count * sizeof *sorted);
+    OWNED(check_free) float *sorted = malloc(count * sizeof *sorted);
     memcpy(sorted, values, count * sizeof *sorted);
     qsort(sorted, count, sizeof *sorted, compare);
     const double found = (double)sorted[(uint64_t)(share * (double)(count - 1))];
-    free(sorted);
     return found;
 }
 
@@ -63,7 +62,7 @@ TEST_ON(test_known_surfaces, 2) {
     for (int k = 0; k < 3 * SHAPES; k++) {
         const shape of = (shape)(k % SHAPES);
         const double size = sizes[k / SHAPES];
-        ewa_cloud *cloud = make_points(context, of, size);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_points(context, of, size);
         ewa_estimate_options options = check_estimate_options();
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         if (of == PLANE) { // flat throughout
@@ -96,7 +95,6 @@ TEST_ON(test_known_surfaces, 2) {
             assert_true(fabs((double)found[i] + (double)before[i]) * size <
                         0.01 * fmax(1, fabs((double)before[i]) * size));
         free(before);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -140,7 +138,7 @@ TEST_ON(test_edges, 0) {
         generate.object = EWA_OBJECT_CUBE;
         generate.point_count = wanted;
         generate.positions_only = true;
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
         ewa_estimate_options options = check_estimate_options();
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
@@ -150,14 +148,13 @@ TEST_ON(test_edges, 0) {
         const double spacing = generate.size_world * sqrt(6.0 / (double)count);
         print_message("%llu points: at most %.3f of a spacing\n", (unsigned long long)count, most * spacing);
         assert_true(most * spacing < 0.35);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// Moved points bend as they are moved: by 1 / scale, and a mirror changes no sign, since normals stay outside.
 TEST_ON(test_moved, 0) {
     static const double mirror[16] = {0, -4, 0, 1, 4, 0, 0, 2, 0, 0, -4, 3, 0, 0, 0, 1};
-    ewa_cloud *cloud = check_object(context, EWA_OBJECT_SPHERE, 100);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_object(context, EWA_OBJECT_SPHERE, 100);
     assert_int_equal(ewa_cloud_transform(cloud, mirror), EWA_OK);
     const float *found = check_stream(cloud, EWA_CURVATURE), *place = check_stream(cloud, EWA_POSITION),
                 *normal = check_stream(cloud, EWA_NORMAL);
@@ -166,7 +163,6 @@ TEST_ON(test_moved, 0) {
         for (int c = 0; c < 3; c++) outward += (double)place[3 * i + c] * (double)normal[3 * i + c];
         assert_true(fabs((double)found[i] - 0.25) < 1e-5 && outward > 0);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

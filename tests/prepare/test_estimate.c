@@ -10,7 +10,7 @@ TEST_ON(test_spacing, 2) {
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
-        ewa_cloud *cloud = check_cloud_of(context, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         ewa_spacing spacing;
         assert_int_equal(ewa_cloud_measure_spacing(cloud, 0, &spacing), EWA_OK);
@@ -43,7 +43,6 @@ TEST_ON(test_spacing, 2) {
         assert_true(fabs(inner / options.radius_scale - 1) < 0.045);
         // What a cell reaches beyond a spacing counts twice, which long cells at the border do on one side.
         assert_true(border < (kind == STRETCHED ? 1.25 : 1.2) * inner && border > 0.9 * inner);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -53,7 +52,7 @@ TEST_ON(test_no_holes, 2) {
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
-        ewa_cloud *cloud = check_cloud_of(context, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         ewa_estimate_options options = check_estimate_options();
         options.radius_scale = 0.75;
@@ -72,14 +71,13 @@ TEST_ON(test_no_holes, 2) {
             open += !covered;
         }
         assert_in_range(open, 0, kind == POISSON ? PROBES / 400 : PROBES / 2000);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 TEST_ON(test_axes, 2) {
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(STRETCHED, xyz);
-    ewa_cloud *cloud = check_cloud_of(context, count);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
     ewa_estimate_options options = check_estimate_options();
     options.shape = EWA_SHAPE_ELLIPSE;
@@ -103,14 +101,13 @@ TEST_ON(test_axes, 2) {
         assert_true(fabs(radius / EWA_DEFAULT_RADIUS_SCALE - 1) < 0.045);
     }
     assert_true(checked > count / 2);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A scanner's lines 20 samples apart: 16 neighbours are all on one line, and say nothing about the surface.
 TEST_ON(test_scan_lines, 2) {
     enum { ALONG = 600, LINES = 40, GAP = 20, LINE_COUNT = ALONG * LINES };
     float *xyz = NULL;
-    ewa_cloud *cloud = check_cloud(context, LINE_COUNT, &xyz);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, LINE_COUNT, &xyz);
     check_random random = {12};
     for (uint32_t i = 0; i < LINE_COUNT; i++) {
         xyz[3 * i] = (float)(i % ALONG + check_uniform(&random, -0.3, 0.3));
@@ -128,7 +125,6 @@ TEST_ON(test_scan_lines, 2) {
         if (along < 40 || along >= ALONG - 40 || line < 2 || line >= LINES - 2) continue;
         assert_true(radius[i] > half_gap && radius[i] < 4 * half_gap);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// PCA against the true normal of a sphere, also for doubles far from the origin.
@@ -136,7 +132,7 @@ TEST_ON(test_normals, 2) {
     enum { COUNT = 20000 };
     for (int far = 0; far < 2; far++) {
         const double center[3] = {far ? 512345.25 : 0, far ? 5412345.5 : 0, far ? 321.0 : 0};
-        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, COUNT);
         double *xyz = check_add(cloud, EWA_POSITION, EWA_F64, 3);
         check_random random = {4};
         for (uint32_t i = 0; i < COUNT; i++) {
@@ -160,7 +156,6 @@ TEST_ON(test_normals, 2) {
         }
         assert_true(worst > cos(0.06)); // the neighbourhoods span 0.06
         assert_true(sum / COUNT > 1 - 1e-4);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -169,7 +164,7 @@ TEST_ON(test_keep, 2) {
     const uint32_t count = sample_square(JITTERED, xyz);
     for (int keep = 0; keep < 2; keep++) {
         float *tangent = NULL;
-        ewa_cloud *cloud = check_cloud_of(context, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
         for (uint32_t i = 0; i < 3 * count; i++) normal[i] = 7;
@@ -188,7 +183,6 @@ TEST_ON(test_keep, 2) {
             assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
             assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -239,7 +233,7 @@ TEST_ON(test_degenerate, 2) {
         for (size_t n = 0; n < sizeof counts / sizeof counts[0]; n++)
             for (int shape = 0; shape < 2; shape++) {
                 float *xyz = NULL;
-                ewa_cloud *cloud = check_cloud(context, counts[n], &xyz);
+                OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, counts[n], &xyz);
                 check_random random = {(uint64_t)kind};
                 for (uint32_t i = 0; i < counts[n]; i++) make_degenerate(kind, i, &random, &xyz[3 * i]);
                 ewa_estimate_options options = check_estimate_options();
@@ -267,7 +261,6 @@ TEST_ON(test_degenerate, 2) {
                 assert_int_equal(ewa_cloud_measure_spacing(cloud, 0, &spacing), EWA_OK);
                 if (kind != 10) assert_true(isfinite(spacing.mean_world) && spacing.median_world >= 0);
                 if (kind == 0 && counts[n] > 1) assert_int_equal(spacing.duplicate_count, counts[n]);
-                ewa_cloud_destroy(&cloud);
             }
 }
 
@@ -301,7 +294,7 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
 
 /// Whether the estimate finds sharp edges in a generated object's places, moved by some noise.
 static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings) {
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = count;
@@ -322,7 +315,6 @@ static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings
     assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
     const bool told = ewa_cloud_note(cloud, "estimate.sharp_edges", NULL) != NULL;
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
     return told;
 }
 
@@ -340,8 +332,8 @@ TEST(test_sharp_edges_are_told) {
 TEST(test_overflow) {
     enum { COUNT = 400 };
     for (int shape = 0; shape < 2; shape++) {
-        ewa_context *context = check_context(1, NULL);
-        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, COUNT);
         double *xyz = check_add(cloud, EWA_POSITION, EWA_F64, 3);
         check_random random = {8};
         for (uint32_t i = 0; i < 3 * COUNT; i++) xyz[i] = i % 3 == 2 ? 0 : check_uniform(&random, -1, 1);
@@ -356,8 +348,6 @@ TEST(test_overflow) {
             assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5f);
         }
         for (uint32_t i = 0; i < (shape ? 3u : 1u) * COUNT; i++) assert_true(isfinite(size[i]));
-        ewa_cloud_destroy(&cloud);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -365,7 +355,7 @@ TEST(test_threads_and_machines) {
     enum { COUNT = 60000 };
     static const uint32_t threads[] = {2, 7, 32, 1, 1};
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
-    float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     make_uneven(xyz, COUNT);
     for (int shape = 0; shape < 2; shape++) {
         ewa_context *first_context = NULL, *context = NULL;
@@ -387,7 +377,6 @@ TEST(test_threads_and_machines) {
         ewa_cloud_destroy(&first);
         ewa_context_destroy(&first_context);
     }
-    free(xyz);
 }
 
 /// Each point's surfel is the same wherever it stands in the file.
@@ -428,7 +417,7 @@ TEST(test_order_of_points) {
 
 TEST(test_out_of_memory) {
     enum { COUNT = 2000 };
-    float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
+    OWNED(check_free) float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     make_uneven(xyz, COUNT);
     for (int shape = 0; shape < 2; shape++) {
         ewa_status status = EWA_ERROR_MEMORY;
@@ -458,7 +447,6 @@ TEST(test_out_of_memory) {
         assert_int_equal(status, EWA_OK);
         assert_true(calls > 20);
     }
-    free(xyz);
 }
 
 /// What is marked is what the estimate leaves, whatever is marked before; points that are not finite are none.
@@ -507,8 +495,8 @@ TEST(test_cancel_and_options) {
     const uint32_t count = sample_square(JITTERED, xyz);
     static char stages[3][16] = {"outliers", "estimate", "orient"};
     for (int s = 0; s < 3; s++) {
-        ewa_context *context = check_context_telling(0, cancel_at, stages[s]);
-        ewa_cloud *cloud = check_cloud_of(context, count);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_telling(0, cancel_at, stages[s]);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         ewa_estimate_options options = check_estimate_options();
         options.outlier_factor = 3;
@@ -525,8 +513,6 @@ TEST(test_cancel_and_options) {
         assert_int_equal(ewa_cloud_estimate(&cloud, &wrong), EWA_ERROR_ARGUMENT);
         ewa_cloud_remove(cloud, EWA_POSITION);
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_ERROR_ARGUMENT);
-        ewa_cloud_destroy(&cloud);
-        ewa_context_destroy(&context);
     }
 }
 

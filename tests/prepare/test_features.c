@@ -88,7 +88,8 @@ static double length_of(const float *v) {
 }
 
 static void check_crease(double angle_deg, bool valley) {
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = make_crease(context, angle_deg, valley),
               *before = make_crease(context, angle_deg, valley);
     ewa_feature_options options = default_options();
@@ -128,9 +129,6 @@ static void check_crease(double angle_deg, bool valley) {
     print_message("%g degrees, %s: %u of %u clipped\n", angle_deg, valley ? "valley" : "ridge", clipped,
                   near);
     assert_true(near > 50 && clipped >= near - near / 50);
-    ewa_cloud_destroy(&cloud);
-    ewa_cloud_destroy(&before);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_creases) {
@@ -150,6 +148,7 @@ TEST_ON(test_outliers, 2) {
         bool snapped;
     } cases[] = {{0.01, 0.23, true}, {0.01, 0.29, false}, {0.1, 0.32, true}, {0.1, 0.39, false}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = make_crease(context, 90, false), *before = make_crease(context, 90, false);
         float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
         const float *old = check_stream(before, EWA_POSITION), *normal = check_stream(before, EWA_NORMAL);
@@ -171,13 +170,12 @@ TEST_ON(test_outliers, 2) {
         }
         assert_true(lifted > 5);
         assert_int_equal(snapped, cases[k].snapped ? lifted : 0);
-        ewa_cloud_destroy(&cloud);
-        ewa_cloud_destroy(&before);
     }
 }
 
 /// Below the threshold nothing changes, not even the streams.
 TEST_ON(test_threshold, 2) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *cloud = make_crease(context, 22, false), *before = make_crease(context, 22, false);
     const ewa_feature_options options = default_options();
     ewa_feature_counts counts;
@@ -186,8 +184,6 @@ TEST_ON(test_threshold, 2) {
     assert_int_equal(ewa_cloud_attribute_count(cloud), ewa_cloud_attribute_count(before));
     assert_memory_equal(check_stream(cloud, EWA_RADIUS), check_stream(before, EWA_RADIUS),
                         sizeof(float) * ewa_cloud_point_count(cloud));
-    ewa_cloud_destroy(&cloud);
-    ewa_cloud_destroy(&before);
 }
 
 /// Exact points have 24 neighbours looked at, those with noise of a quarter of a spacing or more all 64, and
@@ -195,7 +191,7 @@ TEST_ON(test_threshold, 2) {
 TEST_ON(test_neighbour_counts, 2) {
     static const double noise[] = {0, 0.0625, 0.125, 0.1875, 0.25, 0.5};
     static const uint32_t expected[] = {24, 34, 44, 54, 64, 64};
-    ewa_cloud *cloud = make_crease(context, 90, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_crease(context, 90, false);
     for (size_t k = 0; k < sizeof noise / sizeof noise[0]; k++) {
         ewa_feature_options options = default_options();
         options.noise = noise[k];
@@ -203,14 +199,13 @@ TEST_ON(test_neighbour_counts, 2) {
         assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
         assert_int_equal(counts.neighbour_count, expected[k]);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// The lines near a step of so many spacings that runs across a crease, and how many of them are not where
 /// their own side of the step has the edge.
 static void count_at_step(double step, uint32_t *lines, uint32_t *moved) {
-    ewa_context *context = check_context(2, NULL);
-    ewa_cloud *cloud = make_crease(context, 90, false);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_crease(context, 90, false);
     // The faces of the crease are tilted by half of a right angle; the spacing is 0.87.
     const double lift = step * 0.87 * sqrt(2);
     float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
@@ -231,8 +226,6 @@ static void count_at_step(double step, uint32_t *lines, uint32_t *moved) {
         *moved += fabs(foot[2] - (beyond > 0 ? lift : 0)) > 0.02;
     }
     print_message("step of %g spacings: %u lines, %u moved\n", step, *lines, *moved);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Neighbours whose planes are less than 0.6 spacings apart have one edge, the mean of theirs; at a higher
@@ -277,9 +270,9 @@ static uint32_t make_corner(corner_kind kind, float *xyz, float *normals) {
 
 static void check_corner(corner_kind kind) {
     static float xyz[3 * MAXIMUM], normals[3 * MAXIMUM];
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     const uint32_t count = make_corner(kind, xyz, normals);
-    ewa_cloud *cloud = without_borders(make_cloud(context, count, xyz, normals));
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = without_borders(make_cloud(context, count, xyz, normals));
     const ewa_feature_options options = default_options();
     ewa_feature_counts counts;
     assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
@@ -304,8 +297,6 @@ static void check_corner(corner_kind kind) {
     print_message("corner %d: %u surfels with two lines, %u of them hold either\n", (int)kind, two, either);
     assert_true(two >= 3 && two == counts.corner_count);
     assert_true(kind != CORNER_NOTCH || either > 0);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_corners) {
@@ -319,7 +310,7 @@ TEST_ON(test_smooth, 0) {
         WITH_DEFAULTS(ewa_generate_options, generate);
         generate.object = objects[i / 2];
         generate.point_count = 20000;
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
         float *p = ewa_cloud_find(cloud, EWA_POSITION)->data;
         check_random random = {5};
@@ -335,7 +326,6 @@ TEST_ON(test_smooth, 0) {
                       (unsigned long long)(counts.edge_count + counts.corner_count));
         assert_int_equal(counts.snapped_count, 0);
         assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -371,17 +361,16 @@ TEST_ON(test_odd_clouds, 2) {
     for (uint32_t count = 0; count < 90; count += count < 8 ? 1 : 27) {
         for (int kind = 0; kind < 3; kind++) {
             float *xyz;
-            ewa_cloud *cloud = check_cloud(context, count, &xyz);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, count, &xyz);
             for (uint32_t i = 0; i < 3 * count; i++)
                 xyz[i] = kind == 0 ? 1 : kind == 1 ? (float)(i / 3) : (float)(i * 2654435761u % 1000);
             const ewa_estimate_options estimate = check_estimate_options();
             assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
             const ewa_feature_options options = default_options();
             assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_OK);
-            ewa_cloud_destroy(&cloud);
         }
     }
-    ewa_cloud *cloud = make_crease(context, 90, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_crease(context, 90, false);
     float *position = ewa_cloud_find(cloud, EWA_POSITION)->data,
           *normal = ewa_cloud_find(cloud, EWA_NORMAL)->data;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 11)
@@ -393,14 +382,13 @@ TEST_ON(test_odd_clouds, 2) {
     assert_true(counts.edge_count > 50);
     const float *clip = check_stream(cloud, EWA_CLIP0);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 11) assert_false(has_line(clip, i));
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Doubles stay doubles, borrowed memory is not written to, axes that are there keep their size.
 TEST_ON(test_streams, 2) {
-    ewa_cloud *cloud = make_crease(context, 90, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
-    double *position = malloc(3 * count * sizeof *position), *copy = malloc(3 * count * sizeof *copy);
+    OWNED(check_free) double *position = malloc(3 * count * sizeof *position), *copy = malloc(3 * count * sizeof *copy);
     assert_non_null(position);
     assert_non_null(copy);
     ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_POSITION), 0, count, position);
@@ -416,15 +404,12 @@ TEST_ON(test_streams, 2) {
     assert_true(counts.edge_count > 50);
     assert_int_equal(ewa_cloud_find(cloud, EWA_POSITION)->type, EWA_F64);
     assert_memory_equal(position, copy, 3 * count * sizeof *copy);
-    ewa_cloud_destroy(&cloud);
-    free(copy);
-    free(position);
 }
 
 TEST(test_refusals) {
     check_log log = {{0}, 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_cloud *cloud = make_crease(context, 90, false);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_crease(context, 90, false);
     ewa_feature_options options = default_options();
     options.neighbour_count = 15;
     assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
@@ -441,14 +426,12 @@ TEST(test_refusals) {
     assert_int_equal(ewa_cloud_detect_features(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "normal"));
     assert_int_equal(ewa_cloud_detect_features(NULL, &options, NULL), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A valley of its own, whose edge is found.
 static ewa_status detect_work(ewa_context *context, void *user) {
     enum { COUNT = 700 };
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     float *positions = NULL, *normals = NULL, *radii = NULL;
     ewa_status status = ewa_cloud_create(context, COUNT, &cloud);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&positions);
@@ -467,7 +450,6 @@ static ewa_status detect_work(ewa_context *context, void *user) {
     const ewa_feature_options options = default_options();
     if (status == EWA_OK) status = ewa_cloud_detect_features(cloud, &options, &counts);
     if (status == EWA_OK) *(uint64_t *)user = counts.edge_count;
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 
@@ -479,9 +461,9 @@ TEST(test_failing_allocations) {
 
 /// Discs get axes where there are features; their borders become clip lines, which end the surface where it ended.
 TEST_ON(test_borders_become_lines, 2) {
-    ewa_cloud *cloud = make_bordered_crease(context, 90, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_bordered_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
-    float *ends = malloc(3 * count * sizeof *ends);
+    OWNED(check_free) float *ends = malloc(3 * count * sizeof *ends);
     assert_non_null(ends);
     memcpy(ends, check_stream(cloud, EWA_BORDER), 3 * count * sizeof *ends);
     const ewa_feature_options options = default_options();
@@ -503,8 +485,6 @@ TEST_ON(test_borders_become_lines, 2) {
         bordered++;
     }
     assert_true(bordered > 40);
-    free(ends);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -49,7 +49,7 @@ TEST_ON(test_counts_and_attributes, 2) {
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
             ewa_generate_options options = check_generate_options((ewa_object)object, counts[c]);
-            ewa_cloud *cloud = check_generated(context, &options);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
             assert_int_equal(ewa_cloud_point_count(cloud), counts[c]);
             const bool bends = object == EWA_OBJECT_SPHERE || object == EWA_OBJECT_TORUS;
             assert_int_equal(ewa_cloud_attribute_count(cloud), 4 + bends);
@@ -61,15 +61,13 @@ TEST_ON(test_counts_and_attributes, 2) {
                 for (int k = 0; k < 3; k++) assert_true(fabsf(position[3 * i + k]) <= 1);
                 assert_true(radius[i] > 0 && isfinite(radius[i]));
             }
-            ewa_cloud_destroy(&cloud);
         }
         ewa_generate_options options = check_generate_options((ewa_object)object, 100);
         options.positions_only = true;
-        ewa_cloud *cloud = check_generated(context, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
         assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
         assert_null(ewa_cloud_find(cloud, EWA_NORMAL));
         assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -101,11 +99,10 @@ TEST_ON(test_positions_and_normals, 2) {
     for (int object = 0; object < EWA_OBJECT_TERRAIN; object++) {
         ewa_generate_options options = check_generate_options((ewa_object)object, 10000);
         options.size_world = 5;
-        ewa_cloud *cloud = check_generated(context, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
         const float *position = data_of(cloud, EWA_POSITION), *normal = data_of(cloud, EWA_NORMAL);
         for (uint64_t i = 0; i < 10000; i++)
             check_on_surface((ewa_object)object, 5, &position[3 * i], &normal[3 * i]);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -130,7 +127,7 @@ TEST_ON(test_terrain_has_land_water_and_upward_unit_normals, 2) {
     for (uint64_t seed = 0; seed < 5; seed++) {
         ewa_generate_options options = check_generate_options(EWA_OBJECT_TERRAIN, 50000);
         options.seed = seed;
-        ewa_cloud *cloud = check_generated(context, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
         const float *position = data_of(cloud, EWA_POSITION), *normal = data_of(cloud, EWA_NORMAL);
         uint64_t water = 0;
         double highest = 0;
@@ -146,7 +143,6 @@ TEST_ON(test_terrain_has_land_water_and_upward_unit_normals, 2) {
         }
         assert_in_range(water, 500, 40000);
         assert_true(highest > 0.1 && highest < 0.8);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -190,7 +186,7 @@ TEST_ON(test_discs_cover_every_place, 2) {
             ewa_generate_options options = check_generate_options((ewa_object)object, count);
             options.jitter = 0.5 * jittered;
             options.radius_scale = jittered ? 1.2 : 0.8;
-            ewa_cloud *cloud = check_generated(context, &options);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
             ewa_terrain terrain;
             ewa_terrain_init(&terrain, options.seed, count);
             const float *position = data_of(cloud, EWA_POSITION), *radius = data_of(cloud, EWA_RADIUS);
@@ -203,7 +199,6 @@ TEST_ON(test_discs_cover_every_place, 2) {
                     covered = distance2(&position[3 * i], place) < (double)radius[i] * radius[i];
                 assert_true(covered);
             }
-            ewa_cloud_destroy(&cloud);
         }
     }
 }
@@ -229,7 +224,7 @@ TEST_ON(test_density_is_even, 2) {
             ewa_generate_options options = check_generate_options(objects[o], 64 * 997);
             options.seed = seed;
             options.jitter = 1;
-            ewa_cloud *cloud = check_generated(context, &options);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
             const float *position = data_of(cloud, EWA_POSITION);
             double counts[64] = {0}, chi_square = 0;
             for (uint64_t i = 0; i < options.point_count; i++)
@@ -237,7 +232,6 @@ TEST_ON(test_density_is_even, 2) {
             for (int b = 0; b < 64; b++) chi_square += (counts[b] - 997) * (counts[b] - 997) / 997;
             // Independent points would give 63 +- 11; one point per cell varies along the bins' borders only.
             assert_true(chi_square < 30);
-            ewa_cloud_destroy(&cloud);
         }
     }
 }
@@ -246,20 +240,19 @@ TEST_ON(test_regular_grid, 1) {
     ewa_generate_options options = check_generate_options(EWA_OBJECT_PLANE, 16);
     options.jitter = 0;
     options.radius_scale = 1;
-    ewa_cloud *cloud = check_generated(context, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
     const float *position = data_of(cloud, EWA_POSITION), *radius = data_of(cloud, EWA_RADIUS);
     for (int i = 0; i < 16; i++) {
         assert_true(position[3 * i] == -0.75f + 0.5f * (float)(i % 4));
         assert_true(position[3 * i + 1] == -0.75f + 0.5f * (float)(i / 4));
         assert_true(radius[i] == 0.5f);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_ON(test_checks, 1) {
     ewa_generate_options options = check_generate_options(EWA_OBJECT_CHECKER, 10000);
     options.checks = 5;
-    ewa_cloud *cloud = check_generated(context, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
     const float *position = data_of(cloud, EWA_POSITION);
     const uint8_t *color = data_of(cloud, EWA_COLOR);
     for (int i = 0; i < 10000; i++) {
@@ -268,7 +261,6 @@ TEST_ON(test_checks, 1) {
         const int expected = ((int)u + (int)v) % 2 ? 0 : 255;
         for (int c = 0; c < 3; c++) assert_int_equal(color[3 * i + c], expected);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST(test_same_bytes_for_every_thread_count) {
@@ -276,7 +268,7 @@ TEST(test_same_bytes_for_every_thread_count) {
     for (int object = 0; object < OBJECT_COUNT; object++) {
         uint64_t first = 0;
         for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
-            ewa_context *context = check_context(threads[t], NULL);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[t], NULL);
             ewa_generate_options options = check_generate_options((ewa_object)object, 54321);
             ewa_cloud *cloud = check_generated(context, &options);
             const uint64_t hash = check_cloud_hash(cloud);
@@ -289,7 +281,6 @@ TEST(test_same_bytes_for_every_thread_count) {
                 assert_true(check_cloud_hash(cloud) != first);
                 ewa_cloud_destroy(&cloud);
             }
-            ewa_context_destroy(&context);
         }
     }
 }
@@ -322,31 +313,29 @@ static void check_refused(ewa_context *context, const check_log *log, const ewa_
     assert_non_null(strstr(log->text, member));
 }
 
-TEST(test_bad_options) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_bad_options, 1) {
     const ewa_generate_options good = check_generate_options(EWA_OBJECT_CHECKER, 10);
     static const double bad[] = {NAN, INFINITY, -INFINITY, -1, 0, 1e300, 1e-300};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         ewa_generate_options options = good;
         options.size_world = bad[i];
-        check_refused(context, &log, &options, "size_world");
+        check_refused(context, log, &options, "size_world");
         options = good;
         options.checks = bad[i];
-        check_refused(context, &log, &options, "checks");
+        check_refused(context, log, &options, "checks");
         options = good;
         options.radius_scale = bad[i];
-        if (bad[i] != 0) check_refused(context, &log, &options, "radius_scale");
+        if (bad[i] != 0) check_refused(context, log, &options, "radius_scale");
         options = good;
         options.jitter = bad[i];
-        if (!(bad[i] >= 0 && bad[i] <= 1)) check_refused(context, &log, &options, "jitter");
+        if (!(bad[i] >= 0 && bad[i] <= 1)) check_refused(context, log, &options, "jitter");
     }
     ewa_generate_options options = good;
     options.object = (ewa_object)17;
-    check_refused(context, &log, &options, "object");
+    check_refused(context, log, &options, "object");
     options = good;
     options.struct_size = 8;
-    check_refused(context, &log, &options, "struct_size");
+    check_refused(context, log, &options, "struct_size");
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(NULL, &good, &cloud), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_generate(context, &good, NULL), EWA_ERROR_ARGUMENT);
@@ -354,7 +343,6 @@ TEST(test_bad_options) {
     options.point_count = UINT64_MAX;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_ERROR_LIMIT);
     assert_null(cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST_ON(test_extreme_sizes_stay_finite, 1) {
@@ -364,10 +352,9 @@ TEST_ON(test_extreme_sizes_stay_finite, 1) {
             ewa_generate_options options = check_generate_options((ewa_object)object, 1000);
             options.size_world = sizes[i & 1];
             options.radius_scale = scales[i >> 1];
-            ewa_cloud *cloud = check_generated(context, &options);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
             const float *radius = data_of(cloud, EWA_RADIUS);
             for (int k = 0; k < 1000; k++) assert_true(radius[k] >= FLT_MIN && radius[k] <= FLT_MAX);
-            ewa_cloud_destroy(&cloud);
         }
     }
 }
@@ -386,22 +373,19 @@ static bool cancel(void *user, const char *stage, double fraction) {
 TEST(test_progress_cancels) {
     WITH_DEFAULTS(ewa_context_options, context_options);
     context_options.progress = cancel;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
     const ewa_generate_options options = check_generate_options(EWA_OBJECT_PLANE, 1000);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_CANCELLED);
     assert_null(cloud);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_sharp_objects) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_sharp_objects, 0) {
     for (int object = 0; object <= EWA_OBJECT_CSG; object++) {
         ewa_generate_options options = check_generate_options((ewa_object)object, 7000);
         options.sharp = true;
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         const bool has_edges = object == EWA_OBJECT_CUBE || object == EWA_OBJECT_CSG;
         const ewa_status status = ewa_cloud_generate(context, &options, &cloud);
         assert_int_equal(status, has_edges ? EWA_OK : EWA_ERROR_ARGUMENT);
@@ -427,15 +411,13 @@ TEST(test_sharp_objects) {
         cloud = check_generated(context, &options);
         assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
         assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
-        ewa_cloud_destroy(&cloud);
     }
     ewa_generate_options few = check_generate_options(EWA_OBJECT_CSG, 100);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &few, &cloud), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "point_count is 100"));
+    assert_non_null(strstr(log->text, "point_count is 100"));
     few.point_count = 0;
     assert_int_equal(ewa_cloud_generate(context, &few, &cloud), EWA_ERROR_ARGUMENT);
-    ewa_context_destroy(&context);
 }
 
 /// The part measures what docs/sharp.md says: its box, the floors of slot and notch, and its holes, whose
@@ -449,7 +431,7 @@ TEST_ON(test_part_measures, 0) {
     static const double box[3] = {1, 0.7, 0.4};
     ewa_generate_options options = check_generate_options(EWA_OBJECT_CSG, 7000);
     options.size_world = 3;
-    ewa_cloud *cloud = check_generated(context, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
     const float *p = data_of(cloud, EWA_POSITION), *n = data_of(cloud, EWA_NORMAL);
     uint64_t on_wall[WALLS] = {0}, bottom_of_slot = 0, bottom_of_notch = 0;
     double high[3] = {0};
@@ -477,7 +459,6 @@ TEST_ON(test_part_measures, 0) {
     for (int c = 0; c < 3; c++) assert_true(fabs(2 * high[c] - box[c]) < 1e-6);
     for (int k = 0; k < WALLS; k++) assert_true(on_wall[k] > 100);
     assert_true(bottom_of_slot > 100 && bottom_of_notch > 30);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

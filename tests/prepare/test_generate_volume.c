@@ -26,7 +26,7 @@ static void index_to_world(const ewa_volume *volume, const double index[3], doub
 /// rule is exact to many digits.
 TEST_ON(test_line_integrals, 0) {
     for (int kind = 0; kind < 2; kind++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         make(context, kind ? EWA_VOLUME_BALL : EWA_VOLUME_BLOB, 65, 33, 129, &volume);
         assert_int_equal(volume.type, EWA_F32);
         const float *voxels = volume.voxels;
@@ -43,12 +43,11 @@ TEST_ON(test_line_integrals, 0) {
                 worst = fmax(worst, fabs(sum - wanted));
             }
         if (worst > (kind ? 2e-4 : 1e-6)) fail_msg("%s: off by %g", kind ? "ball" : "blob", worst);
-        ewa_volume_free(&volume);
     }
 }
 
 TEST_ON(test_checkerbox, 0) {
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     make(context, EWA_VOLUME_CHECKERBOX, 129, 129, 129, &volume);
     const uint8_t *voxels = volume.voxels;
     uint64_t counts[256] = {0};
@@ -60,7 +59,6 @@ TEST_ON(test_checkerbox, 0) {
     // Neighbouring cubes of 12 voxels take turns.
     for (int c = 0; c < 8; c++)
         assert_int_equal(voxels[(20 * 129 + 20) * 129 + 20 + 12 * c], c & 1 ? 96 : 255);
-    ewa_volume_free(&volume);
 }
 
 /// FNV-1a over the voxels.
@@ -75,14 +73,12 @@ static uint64_t hash(const ewa_volume *volume) {
 TEST(test_same_bytes) {
     uint64_t sums[4][2];
     for (uint32_t threads = 1; threads <= 2; threads++) {
-        ewa_context *context = check_context(3 * threads - 2, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(3 * threads - 2, NULL);
         for (int object = 0; object < 4; object++) {
-            ewa_volume volume;
+            OWNED(ewa_volume_free) ewa_volume volume;
             make(context, (ewa_volume_object)object, 48, 40, 56, &volume);
             sums[object][threads - 1] = hash(&volume);
-            ewa_volume_free(&volume);
         }
-        ewa_context_destroy(&context);
     }
     for (int object = 0; object < 4; object++) assert_true(sums[object][0] == sums[object][1]);
 }
@@ -93,7 +89,7 @@ TEST_ON(test_vessels, 0) {
     options.object = EWA_VOLUME_VESSELS;
     uint64_t sums[2];
     for (uint64_t seed = 0; seed < 2; seed++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         options.seed = seed;
         assert_int_equal(ewa_volume_generate(context, &options, &volume), EWA_OK);
         const uint8_t *voxels = volume.voxels;
@@ -107,23 +103,21 @@ TEST_ON(test_vessels, 0) {
         if (bright <= 50 || high <= 100)
             fail_msg("%llu bright, %llu high", (unsigned long long)bright, (unsigned long long)high);
         sums[seed] = hash(&volume);
-        ewa_volume_free(&volume);
     }
     assert_true(sums[0] != sums[1]);
 }
 
 /// The box of an outline.
 static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *transfer, double reach_steps) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_bounds bounds;
     assert_int_equal(ewa_volume_outline(volume, transfer, reach_steps, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-    ewa_cloud_destroy(&cloud);
     return bounds;
 }
 
 TEST_ON(test_outline, 1) {
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){20, 20, 20}, EWA_U8, &volume), EWA_OK);
     static const double place[12] = {0, -2, 0, 10, 1, 0, 0, 20, 0, 0, 3, 30};
     memcpy(volume.index_to_world, place, sizeof place);
@@ -159,7 +153,6 @@ TEST_ON(test_outline, 1) {
     assert_int_equal(outline_box(&volume, &transfer, 0).finite_count, 8);
     ewa_cloud *cloud;
     assert_int_equal(ewa_volume_outline(&volume, &transfer, -1, &cloud), EWA_ERROR_ARGUMENT);
-    ewa_volume_free(&volume);
 }
 
 TEST_ON(test_bad_options, 1) {
@@ -186,17 +179,15 @@ static ewa_status generate_and_outline(ewa_context *context, void *user) {
     WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = *(ewa_volume_object *)user;
     options.dims[0] = options.dims[1] = options.dims[2] = 8;
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     ewa_volume_facts facts;
     ewa_transfer transfer;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_status status = ewa_volume_generate(context, &options, &volume);
     if (status == EWA_OK) status = ewa_volume_measure(&volume, &facts);
     if (status == EWA_OK) status = ewa_transfer_automatic(&volume, &facts, &transfer);
     if (status == EWA_OK) status = ewa_volume_outline(&volume, &transfer, 1.8, &cloud);
     assert_true((status == EWA_OK) == (cloud != NULL));
-    ewa_cloud_destroy(&cloud);
-    ewa_volume_free(&volume);
     return status;
 }
 

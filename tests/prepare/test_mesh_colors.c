@@ -9,7 +9,7 @@ TEST_ON(test_colors, 0) {
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     assert_int_equal(ewa_mesh_create(context, 4, 2, 1, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
     memcpy(mesh.positions, positions, sizeof positions);
     memcpy(mesh.texcoords, texcoords, sizeof texcoords);
@@ -23,7 +23,7 @@ TEST_ON(test_colors, 0) {
         for (int c = 0; c < 3; c++) pixels[3 * i + c] = i % 64 >= 32 && (c == 0 || i / 64 >= 32) ? 1 : 0;
     ewa_mesh_sample_options options = shape_options(400);
     options.texture_filter = EWA_TEXTURE_EWA;
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_null(ewa_cloud_find(cloud, EWA_TEXCOORD));
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
     assert_int_equal(color->component_count, 3);
@@ -43,16 +43,14 @@ TEST_ON(test_colors, 0) {
     color = ewa_cloud_find(cloud, EWA_COLOR);
     assert_int_equal(color->component_count, 4);
     assert_float_equal(((const float *)color->data)[3], 0.5, 1e-6);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
 }
 
 /// A picture in place of materials and vertex colours; its coordinates stay when asked for.
 TEST_ON(test_picture, 0) {
     static const double positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     static const float texcoords[6] = {0, 0, 1, 0, 0, 1};
-    ewa_mesh mesh;
-    ewa_image picture;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
+    OWNED(ewa_image_free) ewa_image picture;
     assert_int_equal(ewa_mesh_create(context, 3, 1, 2, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
     memcpy(mesh.positions, positions, sizeof positions);
     memcpy(mesh.texcoords, texcoords, sizeof texcoords);
@@ -85,8 +83,6 @@ TEST_ON(test_picture, 0) {
     assert_int_equal(ewa_mesh_set_picture(&mesh, &picture), EWA_ERROR_ARGUMENT);
     assert_non_null(picture.pixels);
     assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_ERROR_ARGUMENT);
-    ewa_image_free(&picture);
-    ewa_mesh_free(&mesh);
 }
 
 /// A quad of two triangles for each of `count` materials, which all have the picture shared.png; OBJ.

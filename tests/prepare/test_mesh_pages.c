@@ -26,16 +26,16 @@ typedef struct pages_seen {
 } pages_seen;
 
 static pages_seen look_at_book(ewa_context *context, uint32_t pages, double spacing_world, uint64_t seed) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     make_book(context, pages, &mesh);
     WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.spacing_world = spacing_world;
     options.seed = seed;
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     const uint64_t count = ewa_cloud_point_count(cloud);
     pages_seen seen = {.points = calloc(pages, sizeof *seen.points)};
     assert_non_null(seen.points);
-    double *places = shape_places(cloud);
+    OWNED(check_free) double *places = shape_places(cloud);
     const float *normal = ewa_cloud_find(cloud, EWA_NORMAL)->data;
     const float *line = ewa_cloud_find(cloud, EWA_CLIP0)->data;
     for (uint64_t i = 0; i < count; i++) {
@@ -50,9 +50,6 @@ static pages_seen look_at_book(ewa_context *context, uint32_t pages, double spac
         assert_true(out > -1e-6 && p[2] > 0.5 * out - 1e-6 && p[2] < 1 - 0.5 * out + 1e-6);
         seen.cut += line[3 * i] != 0 || line[3 * i + 1] != 0 ? 1 / (double)count : 0;
     }
-    free(places);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
     return seen;
 }
 
@@ -97,9 +94,10 @@ static bool follow(void *user, const char *stage, double fraction) {
 }
 
 static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_cloud **cloud) {
+    OWNED(ewa_context_destroy)
     ewa_context *context = check_context_telling(1, follow, log); // which of several workers is done first decides how often is told
     static const double places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_fill(context, 4, places, 2, (const uint32_t[]){0, 1, 2, 2, 1, 3}, &mesh);
     WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = point_count;
@@ -112,8 +110,6 @@ static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_clo
         for (uint64_t i = 0; i < count; i++) assert_true(normal[3 * i + 2] == 1);
         ewa_cloud_destroy(cloud);
     }
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
     return status;
 }
 

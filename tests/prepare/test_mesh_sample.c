@@ -14,11 +14,11 @@ static int face_of(const float *normal) {
 /// All on the faces, as many on each, within the count, no two of a face too near, bytes the same for any
 /// number of threads.
 TEST(test_cube_points) {
-    ewa_context *context = check_context(1, NULL), *many = check_context(5, NULL);
-    ewa_mesh mesh;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL), *many = check_context(5, NULL);
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_cube(context, &mesh);
     const ewa_mesh_sample_options options = shape_options(6000);
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     const uint64_t count = ewa_cloud_point_count(cloud);
     assert_in_range(count, 5700, 6300);
     double *p = shape_places(cloud);
@@ -58,18 +58,13 @@ TEST(test_cube_points) {
     assert_true((double)inner > 0.7 * (double)count);
     assert_true(in_row > 800); // some 40 along each side of each of twelve edges, within the steps of floats
     mesh.context = many;
-    ewa_cloud *other = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *other = shape_sample(&mesh, &options);
     mesh.context = context;
     assert_int_equal(ewa_cloud_point_count(other), count);
     for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
         const ewa_attribute *x = ewa_cloud_attribute_at(cloud, a), *y = ewa_cloud_attribute_at(other, a);
         assert_memory_equal(x->data, y->data, count * x->stride_bytes);
     }
-    ewa_cloud_destroy(&other);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&many);
-    ewa_context_destroy(&context);
 }
 
 /// Whether a place of the plane of point i is kept by its lines.
@@ -114,13 +109,13 @@ static double angle_outline(const float *normal, const double at[3]) {
 
 /// What all discs keep is just what lies within the outline of their face, up to rounding.
 static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *inside) {
-    ewa_context *context = check_context(0, NULL);
-    ewa_mesh mesh;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     make(context, &mesh);
     const ewa_mesh_sample_options options = shape_options(4000);
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     check_random random = {5};
-    double *p = shape_places(cloud);
+    OWNED(check_free) double *p = shape_places(cloud);
     const float *n = shape_stream(cloud, EWA_NORMAL), *u = shape_stream(cloud, EWA_TANGENT_U),
                 *v = shape_stream(cloud, EWA_TANGENT_V);
     uint64_t lines[3] = {0};
@@ -139,10 +134,6 @@ static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *insid
         }
     }
     assert_true(lines[0] > 500 && lines[1] > 500 && lines[2] >= 24);
-    free(p);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_cube_lines) { hold_outline(shape_cube, cube_outline); }
@@ -152,10 +143,10 @@ TEST(test_angle_lines) { hold_outline(shape_angle, angle_outline); }
 
 /// No sharp edges: radii, smooth normals, no lines; an opened one has lines along its border only.
 TEST_ON(test_sphere, 0) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_sphere(context, 32, &mesh);
     const ewa_mesh_sample_options options = shape_options(5000);
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
     assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
     assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
@@ -184,8 +175,6 @@ TEST_ON(test_sphere, 0) {
     free(p);
     assert_true(clipped > 100);
     mesh.triangle_count *= 2;
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
 }
 
 /// Fails with a status and a message that has `text` in it.
@@ -197,23 +186,21 @@ static void refuse(const ewa_mesh *mesh, const ewa_mesh_sample_options *options,
     if (!strstr(log->text, text)) fail_msg("'%s' is not in '%s'", text, log->text);
 }
 
-TEST(test_bad_meshes) {
-    check_log log = {0};
-    ewa_context *context = check_context(0, &log);
-    ewa_mesh mesh;
+TEST_LOGGED(test_bad_meshes, 0) {
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_cube(context, &mesh);
     ewa_mesh_sample_options options = shape_options(1000);
     options.crease_degrees = 181;
-    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "crease_degrees is 181");
+    refuse(&mesh, &options, log, EWA_ERROR_ARGUMENT, "crease_degrees is 181");
     options = shape_options(0);
-    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "point_count is 0");
+    refuse(&mesh, &options, log, EWA_ERROR_ARGUMENT, "point_count is 0");
     options.spacing_world = NAN;
-    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "spacing_world is nan");
+    refuse(&mesh, &options, log, EWA_ERROR_ARGUMENT, "spacing_world is nan");
     options.spacing_world = 1e-12;
-    refuse(&mesh, &options, &log, EWA_ERROR_LIMIT, "a spacing of 1e-12 gives");
+    refuse(&mesh, &options, log, EWA_ERROR_LIMIT, "a spacing of 1e-12 gives");
     options = shape_options(1000);
     mesh.triangles[7] = 8;
-    refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "triangle 2 has vertex 8, there are 8");
+    refuse(&mesh, &options, log, EWA_ERROR_ARGUMENT, "triangle 2 has vertex 8, there are 8");
     mesh.triangles[7] = 3;
     // A triangle that is a line, one that is a point, one with a place that is no number: the rest is
     // sampled.
@@ -226,28 +213,26 @@ TEST(test_bad_meshes) {
     free(p);
     ewa_cloud_destroy(&cloud);
     for (int i = 0; i < 24; i++) mesh.positions[i] = 1;
-    refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
+    refuse(&mesh, &options, log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
     for (int i = 0; i < 24; i++) mesh.positions[i] = i % 2 ? INFINITY : NAN;
-    refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
+    refuse(&mesh, &options, log, EWA_ERROR_NUMERIC, "none of 12 triangles has an area");
     mesh.triangle_count = 0;
-    refuse(&mesh, &options, &log, EWA_ERROR_NUMERIC, "none of 0 triangles");
+    refuse(&mesh, &options, log, EWA_ERROR_NUMERIC, "none of 0 triangles");
     mesh.triangle_count = 12;
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 /// Random triangles through each other, with huge, tiny and doubled ones: finite surfels on their planes.
 TEST_ON(test_soup, 0) {
     for (uint64_t seed = 1; seed < 20; seed++) {
         check_random random = {seed};
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         assert_int_equal(ewa_mesh_create(context, 40, 60, 0, 0, &mesh), EWA_OK);
         const double size = pow(10, check_uniform(&random, -6, 6));
         for (int i = 0; i < 120; i++)
             mesh.positions[i] = size * check_uniform(&random, -1, 1) * (i < 60 ? 1 : 1e-3);
         for (int i = 0; i < 180; i++) mesh.triangles[i] = (uint32_t)(check_random_u64(&random) % 40);
         const ewa_mesh_sample_options options = shape_options(2000);
-        ewa_cloud *cloud = shape_sample(&mesh, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
         assert_true(ewa_cloud_point_count(cloud) > 200);
         for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
             const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, a);
@@ -255,8 +240,6 @@ TEST_ON(test_soup, 0) {
             for (uint64_t i = 0; i < ewa_cloud_point_count(cloud) * attribute->component_count; i++)
                 assert_true(isfinite(((const float *)attribute->data)[i]));
         }
-        ewa_cloud_destroy(&cloud);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -277,7 +260,7 @@ static void same_points(const ewa_cloud *a, const ewa_cloud *b) {
 TEST_ON(test_map_coordinates, 0) {
     static const double shifts[][3] = {{500000, 4200000, 0}, {-6378137, 6378137.5, 1e6}, {1e9, -1e9, 1e9}};
     for (int shape = 0; shape < 3; shape++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         void (*const shapes[2])(ewa_context *, ewa_mesh *) = {shape_cube, shape_angle};
         if (shape < 2)
             shapes[shape](context, &mesh);
@@ -287,35 +270,32 @@ TEST_ON(test_map_coordinates, 0) {
         for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++)
             mesh.positions[i] = round(mesh.positions[i] * 0x1p20) * 0x1p-20;
         const ewa_mesh_sample_options options = shape_options(3000);
-        ewa_cloud *near = shape_sample(&mesh, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *near = shape_sample(&mesh, &options);
         for (size_t s = 0; s < sizeof shifts / sizeof shifts[0]; s++) {
             double origin[2][3];
             for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] += shifts[s][i % 3];
-            ewa_cloud *far = shape_sample(&mesh, &options);
+            OWNED(ewa_cloud_destroy) ewa_cloud *far = shape_sample(&mesh, &options);
             for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] -= shifts[s][i % 3];
             same_points(near, far);
             ewa_cloud_origin(near, origin[0]);
             ewa_cloud_origin(far, origin[1]);
             for (int c = 0; c < 3; c++) assert_true(origin[1][c] - origin[0][c] == shifts[s][c]);
-            ewa_cloud_destroy(&far);
         }
-        ewa_cloud_destroy(&near);
-        ewa_mesh_free(&mesh);
     }
 }
 
 /// Two small cubes far apart: places are doubles, and lie on their faces to a billionth of the distance.
 TEST_ON(test_far_parts, 0) {
-    ewa_mesh cube, mesh;
+    OWNED(ewa_mesh_free) ewa_mesh cube, mesh;
     shape_cube(context, &cube);
     assert_int_equal(ewa_mesh_create(context, 16, 24, 0, 0, &mesh), EWA_OK);
     const double apart = 1e5;
     for (uint32_t i = 0; i < 72; i++) mesh.triangles[i] = cube.triangles[i % 36] + i / 36 * 8;
     for (uint32_t i = 0; i < 48; i++) mesh.positions[i] = cube.positions[i % 24] + (i >= 24 ? apart : 0);
     const ewa_mesh_sample_options options = shape_options(4000);
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_int_equal(ewa_cloud_find(cloud, EWA_POSITION)->type, EWA_F64);
-    double *p = shape_places(cloud);
+    OWNED(check_free) double *p = shape_places(cloud);
     const float *n = shape_stream(cloud, EWA_NORMAL);
     uint64_t far = 0;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
@@ -329,18 +309,14 @@ TEST_ON(test_far_parts, 0) {
         }
     }
     assert_true(far > 1800 && far < 2200);
-    free(p);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&cube);
-    ewa_mesh_free(&mesh);
 }
 
 /// Triangles that are there twice count once; those of another side stay.
 TEST_ON(test_copies, 0) {
-    ewa_mesh cube, mesh;
+    OWNED(ewa_mesh_free) ewa_mesh cube, mesh;
     shape_cube(context, &cube);
     const ewa_mesh_sample_options options = shape_options(3000);
-    ewa_cloud *once = shape_sample(&cube, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *once = shape_sample(&cube, &options);
     // Each triangle five times, begun at other corners, through vertices of their own.
     assert_int_equal(ewa_mesh_create(context, 40, 60, 0, 0, &mesh), EWA_OK);
     for (uint32_t t = 0; t < 60; t++)
@@ -357,7 +333,7 @@ TEST_ON(test_copies, 0) {
         mesh.triangles[i] = mesh.triangles[i + 1];
         mesh.triangles[i + 1] = kept;
     }
-    ewa_cloud *both = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *both = shape_sample(&mesh, &options);
     const float *n = shape_stream(both, EWA_NORMAL);
     double *p = shape_places(both);
     uint64_t outward = 0;
@@ -369,17 +345,13 @@ TEST_ON(test_copies, 0) {
     assert_true(fabs((double)outward / (double)ewa_cloud_point_count(both) - 0.5) < 0.05);
     free(p);
     mesh.triangle_count = 60;
-    ewa_cloud_destroy(&both);
-    ewa_cloud_destroy(&once);
-    ewa_mesh_free(&mesh);
-    ewa_mesh_free(&cube);
 }
 
 /// Normals of the mesh are used where they are within the crease angle of the triangle, and only there.
 TEST_ON(test_given_normals, 0) {
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     assert_int_equal(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_NORMALS, &mesh), EWA_OK);
     memcpy(mesh.positions, positions, sizeof positions);
     memcpy(mesh.triangles, triangles, sizeof triangles);
@@ -393,20 +365,17 @@ TEST_ON(test_given_normals, 0) {
         if (kind == 1) options.smooth_normals = false;
         if (kind == 2) options.crease_degrees = 20;
         if (kind == 3) memset(mesh.normals + 6, 0, 3 * sizeof(float)); // one is missing
-        ewa_cloud *cloud = shape_sample(&mesh, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
         const float *n = shape_stream(cloud, EWA_NORMAL), *u = shape_stream(cloud, EWA_TANGENT_U),
                     *v = shape_stream(cloud, EWA_TANGENT_V);
-        double *p = shape_places(cloud);
+        OWNED(check_free) double *p = shape_places(cloud);
         for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
             const double x = 2 * p[3 * i] - 1, wanted = kind ? 0 : x / sqrt(x * x + 4);
             assert_float_equal(n[3 * i], wanted, 1e-5);
             assert_float_equal(n[3 * i] * u[3 * i] + n[3 * i + 2] * u[3 * i + 2], 0, 1e-6);
             assert_float_equal(n[3 * i] * v[3 * i] + n[3 * i + 2] * v[3 * i + 2], 0, 1e-6);
         }
-        free(p);
-        ewa_cloud_destroy(&cloud);
     }
-    ewa_mesh_free(&mesh);
 }
 
 /// A cube with colours, a picture and copies of triangles, so that every allocation of the sampling is
@@ -415,19 +384,17 @@ static ewa_status sample_all(ewa_context *context, void *user) {
     (void)user;
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1};
     static const uint32_t triangles[12] = {0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 3, 1};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     ewa_status status = ewa_mesh_create(context, 4, 4, 1, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh);
     if (status != EWA_OK) return status;
     memcpy(mesh.positions, positions, sizeof positions);
     memcpy(mesh.triangles, triangles, sizeof triangles);
     for (int i = 0; i < 8; i++) mesh.texcoords[i] = (float)positions[i / 2 * 3 + i % 2];
     status = ewa_image_create(context, 4, 4, 3, &mesh.textures[0]);
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     const ewa_mesh_sample_options options = shape_options(100);
     if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
     assert_true((status == EWA_OK) == (cloud != NULL));
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
     return status;
 }
 
@@ -435,18 +402,15 @@ TEST(test_failing_allocations) { scratch_fail_each(sample_all, NULL); }
 
 /// A needle of 1e20 by 1e32: its rows, not its area, say how far points are from each other.
 TEST(test_needle) {
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     static const double places[9] = {0, 0, 0, 1e20, 0, 0, 0, 1e32, 0};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_fill(context, 3, places, 1, (const uint32_t[]){0, 1, 2}, &mesh);
     WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = 32;
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_in_range(ewa_cloud_point_count(cloud), 8, 128);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 static int by_value(const void *a, const void *b) {
@@ -459,16 +423,16 @@ TEST(test_thin_strip) {
     (void)state;
     static const double lengths[] = {1e6, 1e33}, widths[] = {1e-9, 1};
     for (int i = 0; i < 2; i++) {
-        ewa_context *context = check_context(2, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
         const double length = lengths[i], width = widths[i];
         const double places[12] = {0, 0, 0, length, 0, 0, length, width, 0, 0, width, 0};
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         shape_fill(context, 4, places, 2, (const uint32_t[]){0, 1, 2, 0, 2, 3}, &mesh);
         const ewa_mesh_sample_options options = shape_options(1000);
-        ewa_cloud *cloud = shape_sample(&mesh, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
         const uint64_t count = ewa_cloud_point_count(cloud);
         assert_in_range(count, 500, 2000);
-        double *p = shape_places(cloud), *along = calloc(count, sizeof *along);
+        OWNED(check_free) double *p = shape_places(cloud), *along = calloc(count, sizeof *along);
         assert_non_null(along);
         for (uint64_t k = 0; k < count; k++) {
             along[k] = p[3 * k] / length;
@@ -477,11 +441,6 @@ TEST(test_thin_strip) {
         qsort(along, count, sizeof *along, by_value);
         for (uint64_t k = 1; k < count; k++) assert_true(along[k] - along[k - 1] < 8.0 / (double)count);
         assert_true(along[0] < 0.01 && along[count - 1] > 0.99);
-        free(along);
-        free(p);
-        ewa_cloud_destroy(&cloud);
-        ewa_mesh_free(&mesh);
-        ewa_context_destroy(&context);
     }
 }
 

@@ -25,18 +25,16 @@ static double lean_of(ewa_context *context, const double angle_deg[2], const dou
                                     {1, 0, 0},
                                     {length[0] * cos(a), length[0] * sin(a), 0},
                                     {length[1] * cos(b), -out * cos(bend), -out * sin(bend)}};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_fill(context, 4, positions[0], 2, triangles, &mesh);
     const ewa_mesh_sample_options options = options_of(1e-3);
-    mesh_surface surface;
+    OWNED(ewa_mesh_surface_free) mesh_surface surface;
     assert_int_equal(ewa_mesh_surface_make(&mesh, &options, &surface), EWA_OK);
     assert_int_equal(surface.triangle_count, 2);
     assert_int_equal(surface.corner_group[0], surface.corner_group[3]);
     const float *normal = surface.group_normal[surface.corner_group[0]];
     assert_true(fabsf(normal[0]) < 1e-6f);
     const double lean = atan2(-(double)normal[1], (double)normal[2]) / RADIANS;
-    ewa_mesh_surface_free(&surface);
-    ewa_mesh_free(&mesh);
     return lean;
 }
 
@@ -96,12 +94,12 @@ TEST_ON(test_nearest_sides, 1) {
         positions[3 * i + 1] = tilt[0] * outline[i][1];
         positions[3 * i + 2] = tilt[1] * outline[i][1];
     }
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_fill(context, SIDES, positions, 3, triangles, &mesh);
     const ewa_mesh_sample_options options = options_of(0.01);
     const double radius = 0.9;
-    mesh_surface surface;
-    mesh_edge_grid grid;
+    OWNED(ewa_mesh_surface_free) mesh_surface surface;
+    OWNED(ewa_mesh_edge_grid_free) mesh_edge_grid grid;
     assert_int_equal(ewa_mesh_surface_make(&mesh, &options, &surface), EWA_OK);
     assert_int_equal(surface.edge_count, SIDES);
     assert_int_equal(ewa_mesh_edge_grid_make(&surface, radius, &grid), EWA_OK);
@@ -151,9 +149,6 @@ TEST_ON(test_nearest_sides, 1) {
     print_message("%u discs with two lines, %u of them reach more sides; %u with one, %u with none\n",
                   of_count[2], dense, of_count[1], of_count[0]);
     assert_true(of_count[2] > 1000 && dense > 200 && of_count[1] > 20);
-    ewa_mesh_edge_grid_free(&grid);
-    ewa_mesh_surface_free(&surface);
-    ewa_mesh_free(&mesh);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

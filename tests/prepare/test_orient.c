@@ -94,7 +94,7 @@ TEST_ON(test_propagation, 2) {
     for (int run = 0; run < 3 * OBJECTS; run++) {
         const int kind = run % OBJECTS;
         float *xyz = NULL;
-        ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
         double(*truth)[3] = calloc(COUNT, sizeof *truth);
         check_random random = {(uint64_t)run + 20};
         for (uint32_t i = 0; i < COUNT; i++) {
@@ -115,14 +115,13 @@ TEST_ON(test_propagation, 2) {
         }
         assert_true(agree > 0.999 * COUNT);
         free(truth);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 TEST_ON(test_viewpoint_and_none, 2) {
     for (int none = 0; none < 2; none++) {
         float *xyz = NULL;
-        ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
         check_random random = {2};
         for (uint32_t i = 0; i < COUNT; i++) {
             double d[3];
@@ -152,7 +151,6 @@ TEST_ON(test_viewpoint_and_none, 2) {
                                  n[2] * (a[0] * b[1] - a[1] * b[0]);
             assert_true(volume > 0);
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -193,7 +191,7 @@ TEST_ON(test_what_the_cloud_knows, 2) {
     for (size_t k = 0; k < sizeof notes / sizeof *notes; k++) {
         float *xyz = NULL;
         void *returns = NULL, *scan = NULL;
-        ewa_cloud *cloud = make_sphere(context, &xyz);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_sphere(context, &xyz);
         assert_int_equal(ewa_cloud_add(cloud, "return_number", EWA_U8, 1, &returns), EWA_OK);
         memset(returns, 1, COUNT);
         if (k == 0) {
@@ -203,7 +201,6 @@ TEST_ON(test_what_the_cloud_knows, 2) {
         if (notes[k])
             assert_int_equal(ewa_cloud_set_note(cloud, "scanners", notes[k], strlen(notes[k])), EWA_OK);
         assert_int_equal(count_turned(&cloud, k < 2 ? seen_from : NULL, scan), 0);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -215,7 +212,7 @@ TEST_ON(test_outlier_limit, 2) {
     static double distance[OUTLIER_POINTS];
     for (size_t f = 0; f < sizeof factors / sizeof *factors; f++) {
         float *xyz = NULL;
-        ewa_cloud *cloud = check_cloud(context, OUTLIER_POINTS, &xyz);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, OUTLIER_POINTS, &xyz);
         check_random random = {31 + f};
         for (uint32_t i = 0; i < 3 * OUTLIER_POINTS; i++) {
             const double u = check_uniform(&random, -1, 1);
@@ -252,13 +249,12 @@ TEST_ON(test_outlier_limit, 2) {
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         assert_int_equal(ewa_cloud_point_count(cloud), kept_count);
         assert_memory_equal(check_stream(cloud, EWA_POSITION), kept, 3 * kept_count * sizeof *kept);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 TEST_ON(test_outliers, 2) {
     float *xyz = NULL;
-    ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
     uint16_t *label = check_add(cloud, "label", EWA_U16, 1);
     double *precise = check_add(cloud, "precise", EWA_F64, 2);
     struct record {
@@ -303,7 +299,6 @@ TEST_ON(test_outliers, 2) {
     double kept_origin[3];
     ewa_cloud_origin(cloud, kept_origin);
     assert_memory_equal(kept_origin, origin, sizeof origin);
-    ewa_cloud_destroy(&cloud);
     free(records);
 }
 

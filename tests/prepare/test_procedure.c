@@ -141,11 +141,11 @@ static ewa_cloud *sphere(ewa_context *context, uint64_t count) {
 
 /// The same bytes for any number of threads; a disc and its axes give the same colours; the seed matters.
 TEST(test_clouds) {
-    ewa_context *one = check_context(1, NULL), *many = check_context(7, NULL);
+    OWNED(ewa_context_destroy) ewa_context *one = check_context(1, NULL), *many = check_context(7, NULL);
     for (int procedure = EWA_PROCEDURE_CHECKER; procedure <= EWA_PROCEDURE_NOISE; procedure++) {
         ewa_procedure_options options;
         ewa_procedure_options_init(&options, (ewa_procedure)procedure, sizeof options);
-        ewa_cloud *a = sphere(one, 5000), *b = sphere(many, 5000);
+        OWNED(ewa_cloud_destroy) ewa_cloud *a = sphere(one, 5000), *b = sphere(many, 5000);
         assert_int_equal(ewa_cloud_color_by_procedure(a, &options), EWA_OK);
         assert_int_equal(ewa_cloud_color_by_procedure(b, &options), EWA_OK);
         const ewa_attribute *color = ewa_cloud_find(a, EWA_COLOR);
@@ -175,18 +175,14 @@ TEST(test_clouds) {
         assert_int_equal(ewa_cloud_color_by_procedure(b, &options), EWA_OK);
         y = ewa_cloud_find(b, EWA_COLOR)->data;
         if (procedure != EWA_PROCEDURE_CHECKER) assert_true(memcmp(x, y, 15000) != 0);
-        ewa_cloud_destroy(&b);
-        ewa_cloud_destroy(&a);
     }
-    ewa_context_destroy(&many);
-    ewa_context_destroy(&one);
 }
 
 /// Without a filter points have the texture's own two colours; alpha stays; the origin counts; what is no
 /// number is the mean.
 TEST_ON(test_values, 0) {
     float *xyz;
-    ewa_cloud *cloud = check_cloud(context, 3, &xyz);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, 3, &xyz);
     const float at[] = {0.25f, 0.25f, 0.25f, 1.25f, 0.25f, 0.25f, NAN, 0, 0};
     memcpy(xyz, at, sizeof at);
     uint16_t *alpha = check_add(cloud, EWA_COLOR, EWA_U16, 4);
@@ -206,13 +202,10 @@ TEST_ON(test_values, 0) {
     color = ewa_cloud_find(cloud, EWA_COLOR);
     assert_int_equal(((const uint8_t *)color->data)[0], 0);
     assert_int_equal(((const uint8_t *)color->data)[4], 255);
-    ewa_cloud_destroy(&cloud);
 }
 
-TEST(test_arguments) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_cloud *cloud = sphere(context, 10);
+TEST_LOGGED(test_arguments, 1) {
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = sphere(context, 10);
     const struct {
         const char *says;
         double frequency, prefilter, cutoff;
@@ -231,21 +224,19 @@ TEST(test_arguments) {
         options.cutoff = rows[r].cutoff;
         options.colors[0][1] = rows[r].first;
         assert_int_equal(ewa_cloud_color_by_procedure(cloud, &options), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, rows[r].says));
+        assert_non_null(strstr(log->text, rows[r].says));
     }
     ewa_procedure_options_init(&options, EWA_PROCEDURE_WOOD, sizeof options);
     ewa_cloud_remove(cloud, EWA_NORMAL);
     assert_int_equal(ewa_cloud_color_by_procedure(cloud, &options), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "a prefilter needs 'normal' and 'radius'"));
+    assert_non_null(strstr(log->text, "a prefilter needs 'normal' and 'radius'"));
     ewa_cloud_remove(cloud, EWA_POSITION);
     assert_int_equal(ewa_cloud_color_by_procedure(cloud, &options), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "no 'position'"));
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "no 'position'"));
 }
 
 static ewa_status color_points(ewa_context *context, void *user) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     float *xyz;
     ewa_status status = ewa_cloud_create(context, *(const uint64_t *)user, &cloud);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz);
@@ -257,7 +248,6 @@ static ewa_status color_points(ewa_context *context, void *user) {
         status = ewa_cloud_color_by_procedure(cloud, &options);
         assert_true((ewa_cloud_find(cloud, EWA_COLOR) != NULL) == (status == EWA_OK));
     }
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 

@@ -52,10 +52,10 @@ static double blend_at(const ewa_cloud *cloud, uint64_t i, uint64_t c) {
 /// Interpolation gives the points their colours, a fit comes nearer; the report says by how much.
 TEST_ON(test_reconstruction, 0) {
     for (int goal = EWA_REFIT_INTERPOLATE; goal <= EWA_REFIT_FIT; goal++) {
-        ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 900, false);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 900, false);
         const uint64_t count = ewa_cloud_point_count(cloud);
         const float *color = random_colors(cloud, 3);
-        float *wanted = malloc(3 * count * sizeof *wanted);
+        OWNED(check_free) float *wanted = malloc(3 * count * sizeof *wanted);
         assert_non_null(wanted);
         memcpy(wanted, color, 3 * count * sizeof *wanted);
         double before = 0, after = 0;
@@ -73,8 +73,6 @@ TEST_ON(test_reconstruction, 0) {
         assert_int_equal(report.surfel_count, count);
         assert_int_equal(report.left_out_count, 0);
         assert_true(report.low < 0 && report.high > 1);
-        free(wanted);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -82,7 +80,7 @@ TEST_ON(test_reconstruction, 0) {
 /// cube does not see the next one.
 TEST_ON(test_constant, 0) {
     for (int sharp = 0; sharp < 2; sharp++) {
-        ewa_cloud *cloud = generate(context, EWA_OBJECT_CUBE, 3000, sharp);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_CUBE, 3000, sharp);
         const uint64_t count = ewa_cloud_point_count(cloud);
         const float *normal = check_stream(cloud, EWA_NORMAL);
         uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 4);
@@ -90,7 +88,7 @@ TEST_ON(test_constant, 0) {
             for (uint64_t c = 0; c < 3; c++) color[4 * i + c] = (uint8_t)(128 + 80 * normal[3 * i + c]);
             color[4 * i + 3] = (uint8_t)(i % 256);
         }
-        ewa_cloud *copy = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *copy = NULL;
         assert_int_equal(ewa_cloud_merge((const ewa_cloud *[]){cloud}, 1, &copy), EWA_OK);
         assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, NULL), EWA_OK);
         const ewa_attribute *made = ewa_cloud_find(cloud, EWA_COLOR);
@@ -106,18 +104,16 @@ TEST_ON(test_constant, 0) {
             }
             assert_true(rgba[3] == (float)(old[4 * i + 3] / 255.0));
         }
-        ewa_cloud_destroy(&copy);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// The same bytes for any number of threads.
 TEST(test_threads) {
-    float *first = NULL;
+    OWNED(check_free) float *first = NULL;
     const uint32_t threads[] = {1, 2, 7};
     for (int t = 0; t < 3; t++) {
-        ewa_context *context = check_context(threads[t], NULL);
-        ewa_cloud *cloud = generate(context, EWA_OBJECT_TORUS, 20000, false);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[t], NULL);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_TORUS, 20000, false);
         random_colors(cloud, 3);
         assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, NULL), EWA_OK);
         const size_t bytes = ewa_cloud_point_count(cloud) * sizeof(float[3]);
@@ -127,16 +123,13 @@ TEST(test_threads) {
             memcpy(first, check_stream(cloud, EWA_COLOR), bytes);
         }
         assert_memory_equal(first, check_stream(cloud, EWA_COLOR), bytes);
-        ewa_cloud_destroy(&cloud);
-        ewa_context_destroy(&context);
     }
-    free(first);
 }
 
 /// Points at one place with different colours, places covered by hundreds of kernels, points that are no
 /// surfels, colours that are no numbers: everything stays finite and bounded.
 TEST_ON(test_bad_points, 0) {
-    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 2000, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 2000, false);
     float *position = (float *)ewa_cloud_find(cloud, EWA_POSITION)->data,
           *radius = (float *)ewa_cloud_find(cloud, EWA_RADIUS)->data, *color = random_colors(cloud, 3);
     memcpy(position + 3, position, sizeof(float[3]));
@@ -153,41 +146,36 @@ TEST_ON(test_bad_points, 0) {
     const float *made = check_stream(cloud, EWA_COLOR);
     for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) assert_true(fabsf(made[i]) < 40);
     for (int c = 0; c < 3; c++) assert_true(made[3 * 21 + c] == kept[c]);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// What is missing or out of range is named, and the cloud stays as it was.
-TEST(test_arguments) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 100, false);
+TEST_LOGGED(test_arguments, 1) {
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 100, false);
     ewa_refit_options options = options_of((ewa_refit)7);
     assert_int_equal(ewa_cloud_refit_colors(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "goal is 7"));
+    assert_non_null(strstr(log->text, "goal is 7"));
     options = options_of(EWA_REFIT_FIT);
     options.cutoff = NAN;
     assert_int_equal(ewa_cloud_refit_colors(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "cutoff is nan"));
+    assert_non_null(strstr(log->text, "cutoff is nan"));
     options.struct_size = 1;
     assert_int_equal(ewa_cloud_refit_colors(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "struct_size is 1"));
+    assert_non_null(strstr(log->text, "struct_size is 1"));
     assert_int_equal(ewa_cloud_refit_colors(NULL, NULL, NULL), EWA_ERROR_ARGUMENT);
     ewa_cloud_remove(cloud, EWA_RADIUS);
     assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, NULL), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "refit: 'position' is needed with 'normal' and 'radius'"));
+    assert_non_null(strstr(log->text, "refit: 'position' is needed with 'normal' and 'radius'"));
     assert_int_equal(ewa_cloud_find(cloud, EWA_COLOR)->type, EWA_U8);
     ewa_cloud_remove(cloud, EWA_COLOR);
     assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, NULL), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "no 'color'"));
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "no 'color'"));
 }
 
 static ewa_status refit_plane(ewa_context *context, void *user) {
     float *xyz, *normal, *radius;
     const uint64_t count = 400;
     (void)user;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     uint8_t *color;
     ewa_status status = ewa_cloud_create(context, count, &cloud);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz);
@@ -204,7 +192,6 @@ static ewa_status refit_plane(ewa_context *context, void *user) {
         status = ewa_cloud_refit_colors(cloud, NULL, NULL);
         assert_int_equal(ewa_cloud_find(cloud, EWA_COLOR)->type, status == EWA_OK ? EWA_F32 : EWA_U8);
     }
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 
@@ -233,8 +220,8 @@ static bool note_progress(void *user, const char *stage, double fraction) {
 /// so that the report of progress gets there evenly.
 TEST(test_progress) {
     solver_progress progress = {0};
-    ewa_context *context = check_context_telling(0, note_progress, &progress);
-    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 3000, false);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_telling(0, note_progress, &progress);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 3000, false);
     random_colors(cloud, 3);
     progress = (solver_progress){0};
     ewa_refit_report report;
@@ -243,8 +230,6 @@ TEST(test_progress) {
                   report.iteration_count, progress.count, progress.last, progress.longest);
     assert_true(report.iteration_count >= 5);
     assert_true(progress.last > 0.9 && progress.longest < 0.1);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Pictures of a magnified texture come nearer to it: by over a decibel for exact colours, by some for noisy
@@ -263,7 +248,7 @@ TEST_ON(test_pictures, 0) {
 /// Coefficients of any sign are drawn as the reference draws them.
 TEST_ON(test_drawn, 0) {
     enum { SIDE = 48 };
-    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 400, false);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 400, false);
     float *color = random_colors(cloud, 3), lowest = 0;
     for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) color[i] = 6 * color[i] - 3;
     ewa_camera camera = check_camera(SIDE, SIDE);
@@ -273,9 +258,9 @@ TEST_ON(test_drawn, 0) {
     look.shading = EWA_SHADING_NONE;
     ewa_surfels_info info;
     static float fast[4 * SIDE * SIDE], slow[4 * SIDE * SIDE];
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &camera, &look, &(ewa_frame){.rgba = fast}, NULL), EWA_OK);
     assert_int_equal(
         ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &look, &(ewa_frame){.rgba = slow}),
@@ -285,14 +270,11 @@ TEST_ON(test_drawn, 0) {
         lowest = fminf(lowest, fast[i]);
     }
     assert_true(lowest < -0.5f);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Coefficients of any sign survive a file.
 TEST_ON(test_file, 0) {
-    ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 500, false), *back = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 500, false), *back = NULL;
     random_colors(cloud, 3);
     assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, NULL), EWA_OK);
     char path[512];
@@ -302,8 +284,6 @@ TEST_ON(test_file, 0) {
     assert_memory_equal(check_stream(cloud, EWA_COLOR), check_stream(back, EWA_COLOR),
                         500 * sizeof(float[3]));
     remove(path);
-    ewa_cloud_destroy(&back);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -40,8 +40,8 @@ TEST_ON(test_roofs, 1) {
     static const double degrees[] = {10, 30, 45, 55, 80, 120};
     for (int k = 0; k < 6; k++) {
         const double half = degrees[k] * acos(-1) / 360;
-        ewa_cloud *cloud = make_roof(context, half);
-        ewa_solid solid;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_roof(context, half);
+        OWNED(ewa_solid_close) ewa_solid solid;
         assert_int_equal(ewa_solid_open(cloud, "roof", origin, 3, &solid), EWA_OK);
         const ewa_vec3 place = vec3_make(0.3 * STEP, 0.26 * STEP, 0.4 * STEP);
         ewa_local_surface surface;
@@ -61,8 +61,6 @@ TEST_ON(test_roofs, 1) {
             }
             assert_true(surface.normal[0].x > 0 && surface.normal[1].x < 0);
         }
-        ewa_solid_close(&solid);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -75,7 +73,7 @@ TEST_ON(test_lines, 1) {
     static const uint8_t modes[CASES] = {0, 1, 1, 1};
     static const uint32_t counts[CASES] = {2, 2, 1, 0};
     float *position, *axis[2];
-    ewa_cloud *cloud = check_cloud(context, CASES, &position);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud(context, CASES, &position);
     assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&axis[0]), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&axis[1]), EWA_OK);
     for (int i = 0; i < CASES; i++)
@@ -86,7 +84,7 @@ TEST_ON(test_lines, 1) {
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_CLIP0, EWA_F32, 3, lines[0], 3 * sizeof(float)), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_CLIP1, EWA_F32, 3, lines[1], 3 * sizeof(float)), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_CLIP_MODE, EWA_U8, 1, modes, 1), EWA_OK);
-    ewa_solid solid;
+    OWNED(ewa_solid_close) ewa_solid solid;
     assert_int_equal(ewa_solid_open(cloud, "lines", origin, 3, &solid), EWA_OK);
     assert_int_equal(solid.count, CASES);
     for (uint32_t s = 0; s < CASES; s++) {
@@ -97,8 +95,6 @@ TEST_ON(test_lines, 1) {
         assert_int_equal(either, point == 1);
         if (counts[point]) assert_true(found[0].x == 1 && found[0].z == 0.5);
     }
-    ewa_solid_close(&solid);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

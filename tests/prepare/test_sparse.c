@@ -12,9 +12,9 @@ TEST(test_known_solution) {
     ewa_context *contexts[3] = {check_context(1, NULL), check_context(2, NULL), check_context(7, NULL)};
     owned matrix = make_gram(90, 0.5);
     for (uint32_t side_count = 1; side_count <= 7; side_count += 2) {
-        double *truth, *sides = make_sides(&matrix.view, side_count, &truth);
+        OWNED(check_free) double *truth, *sides = make_sides(&matrix.view, side_count, &truth);
         const size_t count = (size_t)matrix.view.size * side_count;
-        double *first = malloc(count * sizeof(double)), *other = malloc(count * sizeof(double));
+        OWNED(check_free) double *first = malloc(count * sizeof(double)), *other = malloc(count * sizeof(double));
         assert_true(first && other);
         for (int method = EWA_SPARSE_FACTOR; method <= EWA_SPARSE_GRADIENT; method++) {
             const ewa_sparse_options options = {.method = (ewa_sparse_method)method, .tolerance = 1e-12};
@@ -35,10 +35,6 @@ TEST(test_known_solution) {
                 assert_memory_equal(first, other, count * sizeof(double));
             }
         }
-        free(other);
-        free(first);
-        free(sides);
-        free(truth);
     }
     owned_free(&matrix);
     for (int c = 0; c < 3; c++) ewa_context_destroy(&contexts[c]);
@@ -73,7 +69,7 @@ TEST_ON(test_small, 2) {
 /// Each bad system gives its status and a message, by either method.
 TEST(test_unsolvable) {
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     const struct {
         const char *says;
         double values[4], sides[2];
@@ -100,21 +96,18 @@ TEST(test_unsolvable) {
             assert_int_equal(log.count, 1);
             assert_non_null(strstr(log.text, rows[r].says));
         }
-    ewa_context_destroy(&context);
 }
 
 /// Too few steps are an error that says so; a factor over the limit is one, or, by AUTO, the gradient.
-TEST(test_limits) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    owned matrix = make_gram(30, 0.5);
-    double *truth, *sides = make_sides(&matrix.view, 1, &truth);
-    double *solution = malloc(matrix.view.size * sizeof(double));
+TEST_LOGGED(test_limits, 1) {
+    OWNED(owned_free) owned matrix = make_gram(30, 0.5);
+    OWNED(check_free) double *truth, *sides = make_sides(&matrix.view, 1, &truth);
+    OWNED(check_free) double *solution = malloc(matrix.view.size * sizeof(double));
     assert_non_null(solution);
     ewa_sparse_options options = {.method = EWA_SPARSE_GRADIENT, .max_iterations = 2};
     assert_int_equal(ewa_sparse_solve(context, &matrix.view, 1, sides, solution, &options, NULL),
                      EWA_ERROR_NUMERIC);
-    assert_non_null(strstr(log.text, "after 2 iterations"));
+    assert_non_null(strstr(log->text, "after 2 iterations"));
     options = (ewa_sparse_options){.method = EWA_SPARSE_FACTOR, .max_factor_bytes = 10000};
     assert_int_equal(ewa_sparse_solve(context, &matrix.view, 1, sides, solution, &options, NULL),
                      EWA_ERROR_LIMIT);
@@ -125,11 +118,6 @@ TEST(test_limits) {
     options.max_factor_bytes = 0;
     assert_int_equal(ewa_sparse_solve(context, &matrix.view, 1, sides, solution, &options, &report), EWA_OK);
     assert_int_equal(report.method, EWA_SPARSE_FACTOR);
-    free(solution);
-    free(sides);
-    free(truth);
-    owned_free(&matrix);
-    ewa_context_destroy(&context);
 }
 
 /// AUTO takes the gradient for many rows, and a factor where that needs more than 500 steps.
@@ -141,9 +129,9 @@ TEST_ON(test_choice, 0) {
     } rows[] = {
         {0.5, 0, EWA_SPARSE_GRADIENT}, {0.85, 0, EWA_SPARSE_FACTOR}, {0.85, 1000, EWA_SPARSE_GRADIENT}};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        owned matrix = make_gram(70, rows[r].sigma);
-        double *truth, *sides = make_sides(&matrix.view, 2, &truth);
-        double *solution = malloc(2 * matrix.view.size * sizeof(double));
+        OWNED(owned_free) owned matrix = make_gram(70, rows[r].sigma);
+        OWNED(check_free) double *truth, *sides = make_sides(&matrix.view, 2, &truth);
+        OWNED(check_free) double *solution = malloc(2 * matrix.view.size * sizeof(double));
         assert_non_null(solution);
         const ewa_sparse_options options = {.max_factor_bytes = rows[r].max_factor_bytes};
         ewa_sparse_report report;
@@ -151,10 +139,6 @@ TEST_ON(test_choice, 0) {
                          EWA_OK);
         assert_int_equal(report.method, rows[r].method);
         assert_true(rows[r].max_factor_bytes ? report.iterations > 500 : report.iterations <= 500);
-        free(solution);
-        free(sides);
-        free(truth);
-        owned_free(&matrix);
     }
 }
 
@@ -173,19 +157,15 @@ static ewa_status solve_system(ewa_context *context, void *user) {
 
 /// Progress grows to 1; it may cancel at any call; each allocation may fail; nothing leaks.
 TEST(test_cancel_and_memory) {
-    owned matrix = make_gram(20, 0.5);
-    double *truth, *sides = make_sides(&matrix.view, 2, &truth);
-    double *solution = malloc(2 * matrix.view.size * sizeof(double));
+    OWNED(owned_free) owned matrix = make_gram(20, 0.5);
+    OWNED(check_free) double *truth, *sides = make_sides(&matrix.view, 2, &truth);
+    OWNED(check_free) double *solution = malloc(2 * matrix.view.size * sizeof(double));
     assert_non_null(solution);
     for (int method = EWA_SPARSE_FACTOR; method <= EWA_SPARSE_GRADIENT; method++) {
         system_of_equations system = {&matrix.view, sides, solution, (ewa_sparse_method)method};
         scratch_fail_each(solve_system, &system);
         assert_true(check_cancel_each("solve", solve_system, &system) > 3);
     }
-    free(solution);
-    free(sides);
-    free(truth);
-    owned_free(&matrix);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -21,7 +21,7 @@ TEST_ON(test_counts_and_unit_normals, 2) {
     static const uint64_t counts[] = {0, 1, 2, 3, 64, 1000, 54321};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
         const ewa_generate_options options = town_options(counts[c]);
-        ewa_cloud *cloud = check_generated(context, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
         assert_int_equal(ewa_cloud_point_count(cloud), counts[c]);
         assert_int_equal(ewa_cloud_attribute_count(cloud), 4);
         const float *position = check_stream(cloud, EWA_POSITION), *normal = check_stream(cloud, EWA_NORMAL);
@@ -36,12 +36,11 @@ TEST_ON(test_counts_and_unit_normals, 2) {
             assert_true(fabs(length2 - 1) < 1e-5);
             assert_true(radius[i] > 0);
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 TEST(test_there_are_160_boxes_and_1400_trees) {
-    ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
+    OWNED(check_free) ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const double area = ewa_town_make(1, patches);
     uint32_t counts[EWA_TOWN_SCATTER + 1] = {0};
     double sum = 0;
@@ -56,7 +55,6 @@ TEST(test_there_are_160_boxes_and_1400_trees) {
     assert_int_equal(counts[EWA_TOWN_WALL], 4 * 160);
     assert_int_equal(counts[EWA_TOWN_CROWN], 1400);
     assert_int_equal(counts[EWA_TOWN_TRUNK], 1400);
-    free(patches);
 }
 
 /// Whether a point lies on a rectangle, but for rounding.
@@ -70,10 +68,10 @@ static bool is_on(const ewa_town_patch *patch, const double p[3], const float *n
 
 /// Points of walls, roofs and ground lie on them, one of each patch after another, as many as their areas say.
 TEST_ON(test_points_lie_on_their_patches, 2) {
-    ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
+    OWNED(check_free) ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
     const double area = ewa_town_make(options.seed, patches);
-    ewa_cloud *cloud = check_generated(context, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
     const float *position = check_stream(cloud, EWA_POSITION), *normal = check_stream(cloud, EWA_NORMAL);
     double below = 0;
     for (uint32_t p = 0; p < EWA_TOWN_PATCHES; p++) {
@@ -92,14 +90,12 @@ TEST_ON(test_points_lie_on_their_patches, 2) {
             if (patches[p].kind == EWA_TOWN_SCATTER) assert_true(at[2] < 0.01);
         }
     }
-    ewa_cloud_destroy(&cloud);
-    free(patches);
 }
 
 /// The boxes stand apart, so that no wall lies in another box.
 TEST(test_boxes_stand_apart) {
     for (uint64_t seed = 0; seed < 5; seed++) {
-        ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
+        OWNED(check_free) ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
         ewa_town_make(seed, patches);
         for (uint32_t a = 0; a < EWA_TOWN_PATCHES; a++) {
             if (patches[a].kind != EWA_TOWN_ROOF) continue;
@@ -113,17 +109,16 @@ TEST(test_boxes_stand_apart) {
                 assert_true(apart);
             }
         }
-        free(patches);
     }
 }
 
 /// Every place of the walls, roofs and the ground is within the disc of some point of them.
 TEST_ON(test_discs_close_the_walls, 2) {
     enum { PROBES = 300 };
-    ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
+    OWNED(check_free) ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
     ewa_town_make(options.seed, patches);
-    ewa_cloud *cloud = check_generated(context, &options);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
     const float *position = check_stream(cloud, EWA_POSITION), *normal = check_stream(cloud, EWA_NORMAL);
     const float *radius = check_stream(cloud, EWA_RADIUS);
     check_random random = {5};
@@ -142,8 +137,6 @@ TEST_ON(test_discs_close_the_walls, 2) {
         }
         assert_true(covered);
     }
-    ewa_cloud_destroy(&cloud);
-    free(patches);
 }
 
 /// Bytes are a promise, as those of other objects (test generate).
@@ -151,11 +144,11 @@ TEST(test_bytes_are_known_for_every_thread_count) {
     static const uint32_t threads[] = {1, 2, 7, 32};
     static const uint64_t known = 0x2a9e5caed89e7b5eu;
     for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
-        ewa_context *context = check_context(threads[t], NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[t], NULL);
         ewa_generate_options options = town_options(54321);
         options.seed = 42;
         options.radius_scale = 1.14;
-        ewa_cloud *cloud = check_generated(context, &options);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_generated(context, &options);
         const uint64_t hash = check_cloud_hash(cloud);
         ewa_cloud_destroy(&cloud);
         if (hash != known) print_error("%u threads: 0x%016llx\n", threads[t], (unsigned long long)hash);
@@ -163,14 +156,10 @@ TEST(test_bytes_are_known_for_every_thread_count) {
         options.seed = 43;
         cloud = check_generated(context, &options);
         assert_true(check_cloud_hash(cloud) != known);
-        ewa_cloud_destroy(&cloud);
-        ewa_context_destroy(&context);
     }
 }
 
-TEST(test_positions_alone_and_a_picture_upon_it) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_positions_alone_and_a_picture_upon_it, 0) {
     ewa_generate_options options = town_options(1000);
     options.positions_only = true;
     ewa_cloud *cloud = check_generated(context, &options);
@@ -186,7 +175,6 @@ TEST(test_positions_alone_and_a_picture_upon_it) {
     options.sharp = true;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_ERROR_ARGUMENT);
     assert_null(cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_failing_allocation) {

@@ -49,12 +49,11 @@ void probe_cloud(probe *to, const char *name, const ewa_cloud *cloud) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, i);
         const uint64_t points = ewa_cloud_point_count(cloud);
         const size_t count = (size_t)points * attribute->component_count;
-        double *values = calloc(count ? count : 1, sizeof *values);
+        OWNED(check_free) double *values = calloc(count ? count : 1, sizeof *values);
         if (!values) abort();
         ewa_attribute_read_f64(attribute, 0, points, values);
         snprintf(part, sizeof part, "%s %s %d", name, attribute->name, (int)attribute->type);
         probe_doubles(to, part, PROBE_NUMBERS, values, count);
-        free(values);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "ewa/ewa.h"
 #include "tests/defaults.h"
+#include "tests/owned.h"
 
 #include <stdio.h>
 

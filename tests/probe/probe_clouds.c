@@ -20,10 +20,9 @@ static ewa_cloud *generate(probe *to, ewa_object object, uint64_t count, bool sh
 void probe_generated(probe *to) {
     for (int object = 0; object <= EWA_OBJECT_CSG; object++)
         for (int sharp = 0; sharp < 2; sharp++) {
-            ewa_cloud *cloud =
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud =
                 generate(to, (ewa_object)object, object == EWA_OBJECT_CSG ? 1500 : 400, sharp, true);
             probe_cloud(to, "generated", cloud);
-            ewa_cloud_destroy(&cloud);
         }
 }
 
@@ -54,6 +53,7 @@ static ewa_cloud *scan_lines(probe *to) {
 
 void probe_estimates(probe *to) {
     for (int k = 0; k < 9; k++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = k == 6   ? scan_lines(to)
                            : k == 7 ? noisy(to, EWA_OBJECT_CUBE, 900, 0)
                                     : noisy(to, k % 2 ? EWA_OBJECT_TORUS : EWA_OBJECT_TERRAIN, 900, 0.02);
@@ -71,7 +71,6 @@ void probe_estimates(probe *to) {
         probe_doubles(to, "spacing", PROBE_NUMBERS, numbers, 5);
         probe_status(to, "estimate", ewa_cloud_estimate(&cloud, &options));
         probe_cloud(to, "estimated", cloud);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -106,6 +105,7 @@ void probe_solids(probe *to) {
                                               {EWA_OBJECT_TORUS, EWA_OBJECT_SPHERE},
                                               {EWA_OBJECT_CSG, EWA_OBJECT_TORUS}};
     for (int k = 0; k < (to->brief ? 4 : 12); k++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *a = generate(to, operands[k % 4][0], 1500, k % 2, false),
                   *b = generate(to, operands[k % 4][1], 1200, k % 4 == 1, false), *result = NULL;
         // Along an axis, where faces of two cubes lie in one plane, or turned.
@@ -116,12 +116,12 @@ void probe_solids(probe *to) {
         options.operation = (ewa_csg_operation)(k / 4);
         probe_status(to, "csg", ewa_cloud_csg(a, b, &options, &result));
         probe_cloud(to, "solid", result);
-        ewa_cloud_destroy(&a), ewa_cloud_destroy(&b), ewa_cloud_destroy(&result);
     }
 }
 
 void probe_features(probe *to) {
     for (int k = 0; k < 5; k++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = noisy(to, k % 2 ? EWA_OBJECT_CSG : EWA_OBJECT_CUBE, 2500, k >= 3 ? 0.03 : 0);
         WITH_DEFAULTS(ewa_feature_options, options);
         options.angle_deg = k == 2 ? 60 : 30;
@@ -135,7 +135,6 @@ void probe_features(probe *to) {
                                    (double)counts.corner_count, counts.noise, counts.neighbour_count};
         for (int i = 0; i < 5; i++) probe_number(to, "feature counts", numbers[i]);
         probe_cloud(to, "features", cloud);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -154,8 +153,9 @@ static ewa_image picture(probe *to, uint32_t side, uint32_t channels) {
 
 void probe_textured(probe *to) {
     for (int k = 0; k < 8; k++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = generate(to, k % 2 ? EWA_OBJECT_SPHERE : EWA_OBJECT_CUBE, 700, false, true);
-        ewa_image image = picture(to, k < 4 ? 32 : 90, k == 3 ? 4 : k == 5 ? 1 : 3);
+        OWNED(ewa_image_free) ewa_image image = picture(to, k < 4 ? 32 : 90, k == 3 ? 4 : k == 5 ? 1 : 3);
         WITH_DEFAULTS(ewa_acquire_options, options);
         options.filter = (ewa_texture_filter)(k % 3);
         options.fit = k == 5 ? EWA_FIT_SUM : EWA_FIT_NORMALIZED;
@@ -180,8 +180,6 @@ void probe_textured(probe *to) {
         procedure.frequency = k < 4 ? 3 : 20;
         probe_status(to, "procedure", ewa_cloud_color_by_procedure(cloud, &procedure));
         probe_cloud(to, "procedure", cloud);
-        ewa_image_free(&image);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -193,7 +191,7 @@ void probe_sampled(probe *to) {
                                             {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7},
                                             {4, 5, 6}, {4, 6, 7}, {1, 8, 9}, {1, 9, 2}};
     for (int k = 0; k < 6; k++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         if (ewa_mesh_create(to->context, 10, 14, 2, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh) != EWA_OK)
             abort();
         for (uint32_t i = 0; i < 10; i++)
@@ -217,10 +215,8 @@ void probe_sampled(probe *to) {
         options.smooth_normals = k != 1;
         options.crease_degrees = k == 4 ? 80 : 35;
         options.clip_lines = k != 5;
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         probe_status(to, "sample", ewa_mesh_sample(&mesh, &options, &cloud));
         probe_cloud(to, "sampled", cloud);
-        ewa_cloud_destroy(&cloud);
-        ewa_mesh_free(&mesh);
     }
 }

@@ -14,14 +14,13 @@
 typedef void put_file(probe *to, const char *name, const char *path);
 
 static void put_cloud(probe *to, const char *name, const char *path) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     probe_status(to, name, ewa_cloud_load(to->context, path, &cloud));
     if (cloud) probe_cloud(to, name, cloud);
-    ewa_cloud_destroy(&cloud);
 }
 
 static void put_image(probe *to, const char *name, const char *path) {
-    ewa_image image;
+    OWNED(ewa_image_free) ewa_image image;
     memset(&image, 0, sizeof image);
     probe_status(to, name, ewa_image_load(to->context, path, &image));
     probe_image(to, name, &image);
@@ -29,12 +28,11 @@ static void put_image(probe *to, const char *name, const char *path) {
     probe_status(to, name, ewa_depth_load(to->context, path, &image));
     if (image.pixels) // depths are no colours
         probe_floats(to, name, PROBE_NUMBERS, image.pixels, (size_t)image.width_px * image.height_px);
-    ewa_image_free(&image);
 }
 
 static void put_volume_numbers(probe *to, const char *name, const ewa_volume *volume) {
     const size_t count = (size_t)volume->dims[0] * volume->dims[1] * volume->dims[2];
-    double *values = calloc(count ? count : 1, sizeof *values);
+    OWNED(check_free) double *values = calloc(count ? count : 1, sizeof *values);
     if (!values) abort();
     const ewa_attribute numbers = {.type = volume->type,
                                    .component_count = 1,
@@ -43,15 +41,13 @@ static void put_volume_numbers(probe *to, const char *name, const ewa_volume *vo
     if (count) ewa_attribute_read_f64(&numbers, 0, count, values);
     probe_doubles(to, name, PROBE_NUMBERS, values, count);
     probe_doubles(to, name, PROBE_NUMBERS, volume->index_to_world, 12);
-    free(values);
 }
 
 static void put_volume(probe *to, const char *name, const char *path) {
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     memset(&volume, 0, sizeof volume);
     probe_status(to, name, ewa_volume_load(to->context, path, NULL, &volume));
     put_volume_numbers(to, name, &volume);
-    ewa_volume_free(&volume);
 }
 
 static void put_camera_cb(void *user, uint32_t index, const ewa_camera *camera) {
@@ -88,16 +84,15 @@ static void put_transfer_numbers(probe *to, const char *name, const ewa_transfer
 }
 
 static void put_transfer(probe *to, const char *name, const char *path) {
-    ewa_transfer *transfer = calloc(1, sizeof *transfer);
+    OWNED(check_free) ewa_transfer *transfer = calloc(1, sizeof *transfer);
     if (!transfer) abort();
     probe_status(to, name, ewa_transfer_load(to->context, path, transfer));
     put_transfer_numbers(to, name, transfer);
-    free(transfer);
 }
 
 static void put_folder(probe *to, const char *folder, put_file *put) {
     char path[1024];
-    struct dirent **entries = NULL;
+    OWNED(check_free) struct dirent **entries = NULL;
     snprintf(path, sizeof path, "%s/tests/fuzz/corpus/%s", to->source_dir, folder);
     const int count = scandir(path, &entries, NULL, alphasort);
     for (int i = 0; i < count; i++) {
@@ -108,7 +103,6 @@ static void put_folder(probe *to, const char *folder, put_file *put) {
         }
         free(entries[i]);
     }
-    free(entries);
 }
 
 static const char *scratch(const probe *to, const char *name) {
@@ -147,7 +141,7 @@ static void put_clouds_written(probe *to) {
     WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_CSG, generate.point_count = 1500, generate.sharp = true,
     generate.texcoords = true;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     const double origin[3] = {1e5, -3, 0.25};
     probe_status(to, "generate", ewa_cloud_generate(to->context, &generate, &cloud));
     if (!cloud) return;
@@ -158,7 +152,6 @@ static void put_clouds_written(probe *to) {
         probe_status(to, "cloud save", ewa_cloud_save(cloud, scratch(to, "a.ply"), &options));
         put_cloud(to, "cloud written", scratch(to, "a.ply"));
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 static void put_meshes(probe *to) {
@@ -178,18 +171,16 @@ static void put_meshes(probe *to) {
     write_text(to, "d.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0.25\n0 1 0\n3 0 1 2\n3 0 2 3\n");
     static const char *const names[] = {"a.obj", "b.ply", "c.stl", "d.off"};
     for (int i = 0; i < 4; i++) {
-        ewa_mesh mesh;
+        OWNED(ewa_mesh_free) ewa_mesh mesh;
         memset(&mesh, 0, sizeof mesh);
         probe_status(to, names[i], ewa_mesh_load(to->context, scratch(to, names[i]), &mesh));
         probe_number(to, "vertices", mesh.vertex_count);
         probe_number(to, "triangles", mesh.triangle_count);
         WITH_DEFAULTS(ewa_mesh_sample_options, options);
         options.point_count = 200;
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         if (mesh.triangle_count) probe_status(to, "sample", ewa_mesh_sample(&mesh, &options, &cloud));
         probe_cloud(to, "sampled file", cloud);
-        ewa_cloud_destroy(&cloud);
-        ewa_mesh_free(&mesh);
     }
 }
 
@@ -198,7 +189,7 @@ static void put_volumes_written(probe *to) {
     for (int k = 0; k < 4; k++) {
         generate.object = (ewa_volume_object)k;
         generate.dims[0] = 13, generate.dims[1] = 9, generate.dims[2] = 11;
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         if (ewa_volume_generate(to->context, &generate, &volume) != EWA_OK) continue;
         put_volume_numbers(to, "generated volume", &volume);
         WITH_DEFAULTS(ewa_volume_save_options, options);
@@ -221,7 +212,7 @@ static void put_volumes_written(probe *to) {
                                     facts.high_world[0]};
         probe_doubles(to, "volume facts", PROBE_NUMBERS, numbers, 11);
         for (int i = 0; i < 256; i += 5) probe_number(to, "histogram", (double)facts.histogram[i]);
-        ewa_transfer *transfer = calloc(1, sizeof *transfer);
+        OWNED(check_free) ewa_transfer *transfer = calloc(1, sizeof *transfer);
         if (!transfer) abort();
         probe_status(to, "automatic", ewa_transfer_automatic(&volume, &facts, transfer));
         put_transfer_numbers(to, "automatic", transfer);
@@ -232,8 +223,6 @@ static void put_volumes_written(probe *to) {
         }
         probe_status(to, "transfer save", ewa_transfer_save(to->context, transfer, scratch(to, "a.json")));
         put_transfer(to, "transfer written", scratch(to, "a.json"));
-        free(transfer);
-        ewa_volume_free(&volume);
     }
 }
 

@@ -193,13 +193,12 @@ static void probe_cameras(probe *to) {
         CALL("check", ewa_camera_check(to->context, &camera));
     }
     for (int closed = 0; closed < 2; closed++) {
-        ewa_camera_path *path = NULL;
+        OWNED(ewa_camera_path_destroy) ewa_camera_path *path = NULL;
         CALL("path", ewa_camera_path_create(to->context, keys, 4, closed, &path));
         for (int i = 0; path && i < 9; i++) {
             CALL("path at", ewa_camera_path_at(path, 0.55 * i - 0.3, &camera));
             probe_camera(to, "on the path", &camera);
         }
-        ewa_camera_path_destroy(&path);
     }
 }
 

@@ -30,7 +30,7 @@ static void put_curves(probe *to) {
 
 /// A sphere that mirrors a picture of all directions.
 static void put_mirrors(probe *to) {
-    ewa_image sky;
+    OWNED(ewa_image_free) ewa_image sky;
     if (ewa_image_create(to->context, 48, 24, 3, &sky) != EWA_OK) abort();
     for (uint32_t i = 0; i < 48 * 24; i++) {
         const uint32_t x = i % 48, y = i / 48;
@@ -38,13 +38,13 @@ static void put_mirrors(probe *to) {
         sky.pixels[3 * i + 1] = (float)x / 48;
         sky.pixels[3 * i + 2] = (float)y / 24;
     }
-    ewa_environment *environment = NULL;
+    OWNED(ewa_environment_destroy) ewa_environment *environment = NULL;
     probe_status(to, "environment", ewa_environment_create(&sky, &environment));
     WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_SPHERE, generate.point_count = 800;
-    ewa_cloud *cloud = NULL;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
     ewa_material material;
     ewa_material_init(&material);
     material.reflection = 0.8f;
@@ -61,7 +61,7 @@ static void put_mirrors(probe *to) {
         const ewa_camera camera = probe_view(&info.bounds, k - 2.3, 1.7, -0.4, k == 4);
         options.environment_up[0] = k == 1,
         options.environment_up[1] = k == 5 ? -1 : k<2, options.environment_up[2] = k> 1 && k < 5;
-        ewa_frame frame = probe_frame(&camera, true);
+        OWNED(probe_frame_free) ewa_frame frame = probe_frame(&camera, true);
         probe_status(to, "mirror", ewa_render(renderer, surfels, &camera, &options, &frame, NULL));
         probe_frame_put(to, "mirror", &camera, &frame);
         if (k < 2 && !to->brief) {
@@ -69,13 +69,7 @@ static void put_mirrors(probe *to) {
                          ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &options, &frame));
             probe_frame_put(to, "mirror by the reference", &camera, &frame);
         }
-        probe_frame_free(&frame);
     }
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_environment_destroy(&environment);
-    ewa_image_free(&sky);
 }
 
 void probe_pictures(probe *to) {
@@ -84,9 +78,9 @@ void probe_pictures(probe *to) {
 }
 
 static void put_scene(probe *to, random_scene *made, bool reference) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    ewa_frame frame = probe_frame(&made->scene.camera, true);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
+    OWNED(probe_frame_free) ewa_frame frame = probe_frame(&made->scene.camera, true);
     probe_status(to, "surfels", ewa_surfels_create(made->cloud, &made->surfels_options, &surfels));
     probe_status(to, "renderer", ewa_renderer_create(to->context, &renderer));
     ewa_surfels_info info;
@@ -104,9 +98,6 @@ static void put_scene(probe *to, random_scene *made, bool reference) {
                                           &made->scene.camera, &made->scene.options, &frame));
         probe_frame_put(to, "scene by the reference", &made->scene.camera, &frame);
     }
-    probe_frame_free(&frame);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
 }
 
 void probe_splats(probe *to) {

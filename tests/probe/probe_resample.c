@@ -113,7 +113,7 @@ static void put_warps(probe *to) {
         WITH_DEFAULTS(ewa_warp_options, options);
         options.depth_noise = k == 1 || k == 5 ? 0.0036 : 0;
         options.drop_flying = k != 2;
-        ewa_warp *warp = NULL;
+        OWNED(ewa_warp_destroy) ewa_warp *warp = NULL;
         ewa_warp_facts facts;
         memset(&facts, 0, sizeof facts);
         probe_status(to, "warp", ewa_warp_create(to->context, &warp));
@@ -127,16 +127,14 @@ static void put_warps(probe *to) {
             ewa_render_options render;
             ewa_warp_render_options_init(&render, sizeof render);
             if (k >= 3) render.shading = EWA_SHADING_LAMBERT, render.cull = EWA_CULL_BACK;
-            ewa_frame frame = probe_frame(&view, true);
+            OWNED(probe_frame_free) ewa_frame frame = probe_frame(&view, true);
             probe_status(to, "draw",
                          ewa_warp_draw(warp, &view, (ewa_warp_method)method, &render, &frame, holes, NULL));
             probe_frame_put(to, method ? "McMillan" : "warped", &view, &frame);
             double share = 0;
             for (int i = 0; i < SIDE * SIDE; i++) share += holes[i];
             probe_number(to, "holes", share);
-            probe_frame_free(&frame);
         }
-        ewa_warp_destroy(&warp);
     }
 }
 

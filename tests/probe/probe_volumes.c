@@ -41,15 +41,14 @@ static void set_light(ewa_volume_options *options, int k) {
 
 /// The outermost places, which a camera frames.
 static void put_outline(probe *to, const ewa_volume *volume, const ewa_transfer *transfer) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     probe_status(to, "outline", ewa_volume_outline(volume, transfer, 0.02, &cloud));
     probe_cloud(to, "outline", cloud);
-    ewa_cloud_destroy(&cloud);
 }
 
 static void put_pictures(probe *to, const ewa_volume *volume, const ewa_transfer *transfer, int k) {
-    ewa_voxels *voxels = NULL;
-    ewa_volume_renderer *renderer = NULL;
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = NULL;
+    OWNED(ewa_volume_renderer_destroy) ewa_volume_renderer *renderer = NULL;
     ewa_voxels_info info;
     memset(&info, 0, sizeof info);
     probe_status(to, "voxels", ewa_voxels_create(volume, transfer, NULL, &voxels));
@@ -74,8 +73,8 @@ static void put_pictures(probe *to, const ewa_volume *volume, const ewa_transfer
         if (view == 2) options.point_threshold_px = 1.5;
         if (view == 0) options.depth_unit = 2, options.background[2] = 0.4f, options.background[3] = 0.7f;
         set_light(&options, k + view);
-        ewa_frame frame = probe_frame(&camera, false);
-        float *surface_depth = NULL, *surface_rgba = NULL;
+        OWNED(probe_frame_free) ewa_frame frame = probe_frame(&camera, false);
+        OWNED(check_free) float *surface_depth = NULL, *surface_rgba = NULL;
         const size_t count = (size_t)camera.width_px * camera.height_px;
         if (view == 0 && k % 2) {
             surface_depth = calloc(count, sizeof *surface_depth),
@@ -95,22 +94,18 @@ static void put_pictures(probe *to, const ewa_volume *volume, const ewa_transfer
                          ewa_volume_render_reference(volume, transfer, &camera, &options, &frame));
             probe_frame_put(to, "volume by the reference", &camera, &frame);
         }
-        free(surface_depth), free(surface_rgba);
-        probe_frame_free(&frame);
     }
-    ewa_volume_renderer_destroy(&renderer);
-    ewa_voxels_destroy(&voxels);
 }
 
 void probe_volumes(probe *to) {
-    ewa_transfer *transfer = calloc(1, sizeof *transfer);
+    OWNED(check_free) ewa_transfer *transfer = calloc(1, sizeof *transfer);
     if (!transfer) abort();
     for (int k = 0; k < 8; k++) {
         WITH_DEFAULTS(ewa_volume_generate_options, generate);
         generate.object = (ewa_volume_object)(k % 4);
         generate.dims[0] = 19, generate.dims[1] = 17, generate.dims[2] = k < 4 ? 18 : 11;
         generate.checks = 3;
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         ewa_volume_facts facts;
         if (ewa_volume_generate(to->context, &generate, &volume) != EWA_OK) abort();
         probe_status(to, "measure", ewa_volume_measure(&volume, &facts));
@@ -123,7 +118,5 @@ void probe_volumes(probe *to) {
         make_transfer(transfer, &facts, k);
         put_outline(to, &volume, transfer);
         put_pictures(to, &volume, transfer, k);
-        ewa_volume_free(&volume);
     }
-    free(transfer);
 }

@@ -34,7 +34,7 @@ static double kernel(const acquire_scene *scene, double distance) {
 /// One row per pixel of the view: shares of the texture's pixels along one axis.
 static double *make_shares(const acquire_scene *scene, uint32_t size_px) {
     double *shares = calloc((size_t)ACQUIRE_SIDE * size_px, sizeof *shares);
-    double *one = calloc(size_px, sizeof *one);
+    OWNED(check_free) double *one = calloc(size_px, sizeof *one);
     const double px_per_view = size_px / (ACQUIRE_ROW * scene->view_px_per_cell);
     const double reach = 5 * scene->pixel_sigma_px + 1;
     for (int v = 0; shares && one && v < ACQUIRE_SIDE; v++) {
@@ -51,7 +51,6 @@ static double *make_shares(const acquire_scene *scene, uint32_t size_px) {
         }
         for (uint32_t k = 0; k < size_px; k++) row[k] /= total;
     }
-    free(one);
     return shares;
 }
 
@@ -59,7 +58,7 @@ ewa_status acquire_truth(const acquire_scene *scene, ewa_image *picture) {
     const uint32_t width = scene->texture.width_px, height = scene->texture.height_px;
     ewa_status status = ewa_image_create(scene->context, ACQUIRE_SIDE, ACQUIRE_SIDE, 3, picture);
     double *across = make_shares(scene, width), *down = make_shares(scene, height);
-    double *rows = calloc((size_t)height * ACQUIRE_SIDE * 3, sizeof *rows);
+    OWNED(check_free) double *rows = calloc((size_t)height * ACQUIRE_SIDE * 3, sizeof *rows);
     if (!across || !down || !rows) status = EWA_ERROR_MEMORY;
     for (uint32_t y = 0; y < height && status == EWA_OK; y++)
         for (int v = 0; v < ACQUIRE_SIDE; v++)
@@ -78,7 +77,6 @@ ewa_status acquire_truth(const acquire_scene *scene, ewa_image *picture) {
         }
     free(across);
     free(down);
-    free(rows);
     return status;
 }
 
@@ -104,9 +102,9 @@ ewa_status acquire_draw(const acquire_scene *scene, const ewa_cloud *cloud, ewa_
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     options.edge_antialiasing = false, options.supersampling = 1;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    ewa_image drawn = {0};
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = NULL;
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
+    OWNED(ewa_image_free) ewa_image drawn = {0};
     ewa_status status = ewa_surfels_create(cloud, NULL, &surfels);
     if (status == EWA_OK) status = ewa_renderer_create(scene->context, &renderer);
     if (status == EWA_OK) status = ewa_image_create(scene->context, ACQUIRE_SIDE, ACQUIRE_SIDE, 4, &drawn);
@@ -115,9 +113,6 @@ ewa_status acquire_draw(const acquire_scene *scene, const ewa_cloud *cloud, ewa_
     if (status == EWA_OK) status = ewa_image_create(scene->context, ACQUIRE_SIDE, ACQUIRE_SIDE, 3, picture);
     for (size_t i = 0; i < (size_t)ACQUIRE_SIDE * ACQUIRE_SIDE && status == EWA_OK; i++)
         memcpy(picture->pixels + 3 * i, drawn.pixels + 4 * i, 3 * sizeof *drawn.pixels);
-    ewa_image_free(&drawn);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
     return status;
 }
 

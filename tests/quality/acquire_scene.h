@@ -7,6 +7,7 @@
 #define EWA_TESTS_QUALITY_ACQUIRE_SCENE_H
 
 #include "defaults.h"
+#include "owned.h"
 #include "ewa/ewa.h"
 
 enum { ACQUIRE_ROW = 512, ACQUIRE_SIDE = 256 };

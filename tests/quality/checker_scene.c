@@ -174,10 +174,9 @@ ewa_status checker_make(ewa_context *context, const checker_setting *setting, ew
     board.radius_scale = setting->cutoff * setting->sigma;
     WITH_DEFAULTS(ewa_surfels_options, options);
     options.cutoff = setting->cutoff;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_status status = ewa_cloud_generate(context, &board, &cloud);
     if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, surfels);
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 
@@ -200,8 +199,8 @@ static ewa_status sample_mesh(ewa_context *context, ewa_cloud **cloud) {
     static const double corners[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
-    ewa_mesh mesh;
-    ewa_image picture;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
+    OWNED(ewa_image_free) ewa_image picture;
     WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = CHECKER_POINTS;
     EWA_TRY(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_TEXCOORDS, &mesh));
@@ -215,19 +214,16 @@ static ewa_status sample_mesh(ewa_context *context, ewa_cloud **cloud) {
     }
     if (status == EWA_OK) status = ewa_mesh_set_picture(&mesh, &picture);
     if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, cloud);
-    ewa_image_free(&picture);
-    ewa_mesh_free(&mesh);
     return status;
 }
 
 ewa_status checker_make_from(ewa_context *context, checker_source source, double radius_scale, ewa_surfels **surfels) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     WITH_DEFAULTS(ewa_surfels_options, options);
     options.radius_scale = radius_scale;
     ewa_status status = source == CHECKER_OF_MESH ? sample_mesh(context, &cloud) : make_points(context, &cloud);
     if (status == EWA_OK && source == CHECKER_OF_POINTS_REFITTED) status = ewa_cloud_refit_colors(cloud, NULL, NULL);
     if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, surfels);
-    ewa_cloud_destroy(&cloud);
     return status;
 }
 

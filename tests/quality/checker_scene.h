@@ -12,6 +12,7 @@
 #define EWA_TESTS_QUALITY_CHECKER_SCENE_H
 
 #include "defaults.h"
+#include "owned.h"
 #include "ewa/ewa.h"
 
 enum { CHECKER_SIDE = 512, CHECKER_BANDS = 3, CHECKER_POINTS = 250000 };

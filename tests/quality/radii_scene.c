@@ -215,7 +215,7 @@ void radii_measure_sizes(const ewa_cloud *cloud, uint32_t sample_count, radii_si
     double(*place)[3] = read_places(cloud);
     radii_tree *tree = radii_tree_make((const double(*)[3])place, count);
     double *radius = malloc((count + (size_t)1) * 2 * sizeof *radius), *sorted = radius + count;
-    double *ratio = malloc((count + (size_t)1) * sizeof *ratio);
+    OWNED(check_free) double *ratio = malloc((count + (size_t)1) * sizeof *ratio);
     assert_true(radius && ratio);
     ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_RADIUS), 0, count, radius);
     memcpy(sorted, radius, count * sizeof *radius);
@@ -236,7 +236,6 @@ void radii_measure_sizes(const ewa_cloud *cloud, uint32_t sample_count, radii_si
     radii_tree_free(tree);
     free(place);
     free(radius);
-    free(ratio);
 }
 
 /// What a hole is looked for with.

@@ -136,7 +136,7 @@ void solid_color_cloud(ewa_cloud *cloud) {
 void solid_mark_edges(const ewa_solid_shape *shape, const ewa_camera *camera, int reach_px, uint8_t *mask) {
     const int width = (int)camera->width_px, height = (int)camera->height_px;
     const size_t count = (size_t)width * (size_t)height;
-    int *surface = malloc(count * sizeof *surface);
+    OWNED(check_free) int *surface = malloc(count * sizeof *surface);
     assert_non_null(surface);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
@@ -154,7 +154,6 @@ void solid_mark_edges(const ewa_solid_shape *shape, const ewa_camera *camera, in
                         y + dy >= 0 && y + dy < height)
                         mask[(y + dy) * width + x + dx] = 1;
         }
-    free(surface);
 }
 
 void solid_picture(const ewa_solid_shape *shape, const ewa_camera *camera, int side, float *rgba) {

@@ -18,25 +18,21 @@ static void measure(acquire_scene *scene, ewa_texture_filter filter, double rms[
     options.filter = filter;
     options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
     options.pixel_sigma_px = scene->pixel_sigma_px;
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_acquire_report report;
     assert_int_equal(acquire_points(scene, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_acquire(cloud, &scene->texture, 1, &options, &report), EWA_OK);
     assert_true(report.gradient <= 1e-6);
     for (int v = 0; v < VIEWS; v++) {
-        ewa_image truth, picture;
+        OWNED(ewa_image_free) ewa_image truth, picture;
         scene->view_px_per_cell = views_px_per_cell[v];
         assert_int_equal(acquire_truth(scene, &truth), EWA_OK);
         assert_int_equal(acquire_draw(scene, cloud, &picture), EWA_OK);
         rms[v] = acquire_rms(scene, &truth, &picture);
-        ewa_image_free(&truth);
-        ewa_image_free(&picture);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
-TEST(test_figure_6) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_figure_6, 0) {
     acquire_scene scene = {.context = context, .radius_scale = 1.14, .jitter = 0.5, .pixel_sigma_px = 1};
     double filtered[VIEWS], optimal[VIEWS];
     assert_int_equal(acquire_checker(context, 1024, 8, &scene.texture), EWA_OK);
@@ -47,7 +43,6 @@ TEST(test_figure_6) {
     assert_true(fabs(optimal[0] - filtered[0]) < 0.001);
     assert_true(optimal[1] < 0.7 * filtered[1] && optimal[2] < 0.7 * filtered[2]);
     ewa_image_free(&scene.texture);
-    ewa_context_destroy(&context);
 }
 
 /// A quad with a checkerboard, whose ray-cast picture is known in its middle.
@@ -56,7 +51,7 @@ TEST_ON(test_ray_caster, 0) {
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     const double eye[3] = {0, 0, 3}, back[3] = {0, 0, -3}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     ewa_image board, picture;
     assert_int_equal(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
     memcpy(mesh.positions, positions, sizeof positions);
@@ -82,7 +77,6 @@ TEST_ON(test_ray_caster, 0) {
     assert_int_equal(textured_cast(&mesh, &camera, 1, true, &picture), EWA_OK);
     for (int i = 0; i < 40000; i++) assert_true(picture.pixels[i] == 0);
     ewa_image_free(&picture);
-    ewa_mesh_free(&mesh);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

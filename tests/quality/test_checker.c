@@ -23,9 +23,8 @@ static int set_up(void **state) {
 }
 
 static int tear_down(void **state) {
-    fixture *made = *state;
+    OWNED(check_free) fixture *made = *state;
     ewa_context_destroy(&made->context);
-    free(made);
     return 0;
 }
 

@@ -140,13 +140,12 @@ static ewa_cloud *make_generated(ewa_context *context, ewa_object object) {
 }
 
 static ewa_cloud *make_sampled(ewa_context *context) {
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = 20000;
     options.clip_lines = false;
     shape_cube(context, &mesh);
     ewa_cloud *cloud = shape_sample(&mesh, &options);
-    ewa_mesh_free(&mesh);
     return cloud;
 }
 
@@ -194,7 +193,7 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
     *counts = (rim_counts){0};
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
     for (size_t view = 0; view < sizeof eyes / sizeof eyes[0]; view++) {
         ewa_camera camera = check_camera(SIDE, SIDE);
         assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
@@ -217,11 +216,10 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
                 counts->turned += strange >= 0 && hits[at].any && cosine < cos(25 * PI / 180);
             }
     }
-    ewa_surfels_destroy(&surfels);
 }
 
 TEST_ON(test_no_rims_of_far_sides, 0) {
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     const truth cube = {.shape = ewa_solid_shape_of(EWA_OBJECT_CUBE)};
     const struct {
         const char *name;
@@ -244,10 +242,8 @@ TEST_ON(test_no_rims_of_far_sides, 0) {
         // A rim as wide as what far sides reach past edges has several pixels per pixel of outline; what is
         // left is in front of nothing, less than a pixel wide.
         assert_true(3 * found.rim < found.outline && 10 * found.turned < found.outline);
-        ewa_cloud *cloud = solids[i].cloud;
-        ewa_cloud_destroy(&cloud);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = solids[i].cloud;
     }
-    ewa_renderer_destroy(&renderer);
 }
 
 /// A disc that faces the viewer, in a sheet that does not: as its weight grows the mean goes over to it evenly,
@@ -266,7 +262,7 @@ TEST_ON(test_means_go_over, 0) {
         n[2] = disc ? 1 : -1;
         made.count++;
     }
-    ewa_cloud *cloud = make_cloud(context, &made, 0.06);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, &made, 0.06);
     ((float *)ewa_cloud_find(cloud, EWA_RADIUS)->data)[ROWS * ROWS] = 0.4f;
     float *color = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     memset(color, 0, 3 * made.count * sizeof *color);
@@ -293,7 +289,6 @@ TEST_ON(test_means_go_over, 0) {
     assert_true(between > 500);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
     free(made.position);
     free(made.normal);
 }
@@ -366,10 +361,10 @@ TEST_ON(test_cover_is_blind_to_normals, 0) {
     static float rgba[2][4 * SIDE * SIDE], coverage[2][SIDE * SIDE];
     static const double eyes[][3] = {{2.2, -2.6, 1.9}, {1.5, -2.2, -2.2}, {3, -0.4, 0.3}, {0.3, -0.2, -3}};
     static const char *const names[SIGN_KINDS] = {"all", "in patches", "at random"};
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     for (int kind = 0; kind < SIGN_KINDS; kind++)
         for (size_t view = 0; view < sizeof eyes / sizeof eyes[0]; view++) {
-            ewa_cloud *cloud = make_waves(context);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_waves(context);
             const double opacity = view == 1 ? 0.5 : 1;
             draw_sheet(renderer, cloud, eyes[view], opacity, rgba[0], coverage[0]);
             turn_normals(cloud, kind);
@@ -380,24 +375,20 @@ TEST_ON(test_cover_is_blind_to_normals, 0) {
                           names[kind], alpha, covered, largest_difference(rgba[0], rgba[1], 4, -1));
             // Normals of 16 bits are not quite the same with the other sign.
             assert_true(alpha < 1e-3 && covered < 1e-2);
-            ewa_cloud_destroy(&cloud);
         }
-    ewa_renderer_destroy(&renderer);
 }
 
 /// A sphere seen from inside shows its whole inner side, whichever way its normals point, and the same.
 TEST_ON(test_inside_is_shown, 0) {
     static float rgba[2][4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static const double eye[3] = {0.2, -0.5, 0.1};
-    ewa_renderer *renderer = check_renderer(context);
-    ewa_cloud *cloud = make_generated(context, EWA_OBJECT_SPHERE);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_generated(context, EWA_OBJECT_SPHERE);
     draw_sheet(renderer, cloud, eye, 1, rgba[0], coverage);
     turn_normals(cloud, SIGNS_ALL);
     draw_sheet(renderer, cloud, eye, 1, rgba[1], coverage);
     for (int i = 0; i < SIDE * SIDE; i++) assert_true(rgba[0][4 * i + 3] > 0.999f);
     assert_true(largest_difference(rgba[0], rgba[1], 4, -1) < 2e-5);
-    ewa_cloud_destroy(&cloud);
-    ewa_renderer_destroy(&renderer);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -62,7 +62,7 @@ TEST_ON(test_town_stays_as_near_to_the_truth, 0) {
     } rows[] = {{1, 22.0}, {4, 30.0}, {8, 28.0}};
     ewa_cloud *cloud = NULL;
     ewa_bounds bounds;
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(far_make(context, FAR_TOWN, 16000, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
     ewa_surfels *surfels = check_surfels(cloud, NULL);
@@ -87,7 +87,6 @@ TEST_ON(test_town_stays_as_near_to_the_truth, 0) {
     free(fine);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
-    ewa_renderer_destroy(&renderer);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

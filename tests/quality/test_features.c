@@ -22,7 +22,7 @@ TEST_ON(test_scores, 0) {
     char path[512];
     const char *part = check_data("models/fuze/fuze.obj", path, sizeof path);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        feature_scene scene;
+        OWNED(feature_scene_free) feature_scene scene;
         if (!feature_scene_make(rows[i].solid, part, rows[i].solid == SOLID_PART ? 60000 : 24000, &scene))
             continue;
         feature_score score;
@@ -33,7 +33,6 @@ TEST_ON(test_scores, 0) {
         assert_true(score.precision >= rows[i].precision);
         assert_true(score.line_error <= rows[i].line_error);
         assert_true(fabs(score.counts.noise - rows[i].noise) < 0.05);
-        feature_scene_free(&scene);
     }
 }
 
@@ -78,11 +77,11 @@ static void count_holes(ewa_context *context, double noise, hole_counts *found) 
     assert_true(feature_scene_make(SOLID_CUBE, NULL, 6 * 40 * 40, &scene));
     ewa_feature_counts counts;
     double seconds;
-    ewa_cloud *cloud = feature_scene_detect(context, &scene, noise, &counts, &seconds);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = feature_scene_detect(context, &scene, noise, &counts, &seconds);
     feature_scene_free(&scene);
     assert_true(counts.edge_count > 1000 && counts.corner_count >= 8);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     WITH_DEFAULTS(ewa_render_options, render);
     render.cull = EWA_CULL_BACK; // or the far side would fill the holes of the near one
     static float rgba[4 * SIDE * SIDE];
@@ -111,9 +110,6 @@ static void count_holes(ewa_context *context, double noise, hole_counts *found) 
     print_message("noise %g: %llu pixels, %llu holes, %llu translucent\n", noise,
                   (unsigned long long)found->inside, (unsigned long long)found->holes,
                   (unsigned long long)found->thin);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_ON(test_no_holes, 0) {

@@ -71,15 +71,15 @@ static void count_holes(const ewa_camera *camera, const float *coverage, hole_co
 
 static void render_cameras(ewa_kernel kernel, double prefilter_px, hole_counts *counts) {
     *counts = (hole_counts){0};
-    ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
     WITH_DEFAULTS(ewa_generate_options, plane);
     plane.point_count = GRID * GRID;
     plane.jitter = 0;
     plane.radius_scale = sqrt(0.5) * 1.0001; // to the corner, and what single precision may lose
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &plane, &cloud), EWA_OK);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     WITH_DEFAULTS(ewa_render_options, options);
     options.kernel = kernel;
     options.prefilter_px = prefilter_px;
@@ -97,10 +97,6 @@ static void render_cameras(ewa_kernel kernel, double prefilter_px, hole_counts *
                   kernel == EWA_KERNEL_AFFINE ? "affine" : "perspective", prefilter_px,
                   (unsigned long long)counts->holes, (unsigned long long)counts->inside,
                   (unsigned long long)counts->cameras_with_holes, cameras);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_perspective_has_no_holes) {
@@ -127,15 +123,15 @@ TEST_ON(test_generated_discs_close, 0) {
     enum { VIEW_PX = 400, RIM_PX = 8 };
     static float rgba[VIEW_PX * VIEW_PX * 4];
     static const double jitters[] = {0, 0.25, 0.5, 1};
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     for (size_t i = 0; i < sizeof jitters / sizeof jitters[0]; i++) {
         WITH_DEFAULTS(ewa_generate_options, ball);
         ball.object = EWA_OBJECT_SPHERE;
         ball.point_count = 20000;
         ball.jitter = jitters[i];
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_generate(context, &ball, &cloud), EWA_OK);
-        ewa_surfels *surfels = check_surfels(cloud, NULL);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
         ewa_camera camera = check_camera(VIEW_PX, VIEW_PX);
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
         static const double eye[3] = {2, 1.5, 2.2}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
@@ -155,10 +151,7 @@ TEST_ON(test_generated_discs_close, 0) {
             }
         print_message("sphere, jitter %g: %d translucent pixels\n", jitters[i], translucent);
         assert_int_equal(translucent, 0);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
-    ewa_renderer_destroy(&renderer);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

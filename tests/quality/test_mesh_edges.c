@@ -100,12 +100,12 @@ static ewa_cloud *sample_points(const ewa_mesh *mesh, uint64_t points) {
 
 static void render_cameras(const solid *of, uint64_t points, ewa_cull cull, edge_counts *counts) {
     *counts = (edge_counts){0};
-    ewa_context *context = check_context(0, NULL);
-    ewa_mesh mesh;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     of->make(context, &mesh);
-    ewa_cloud *cloud = sample_points(&mesh, points);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = sample_points(&mesh, points);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     WITH_DEFAULTS(ewa_render_options, options);
     options.cull = cull;
     static float coverage[SIDE * SIDE], rgba[4 * SIDE * SIDE];
@@ -122,11 +122,6 @@ static void render_cameras(const solid *of, uint64_t points, ewa_cull cull, edge
                   (unsigned long long)counts->inside, (unsigned long long)counts->holes,
                   (unsigned long long)counts->thin, (unsigned long long)counts->outside,
                   (unsigned long long)counts->excess);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 static void hold(const solid *of) {
@@ -151,11 +146,11 @@ TEST(test_angle) { hold(&angle); }
 TEST_ON(test_light_at_edges, 0) {
     static const double eye[3] = {3.1, 2.9, 2.7}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     static float rgba[4 * SIDE * SIDE];
-    ewa_mesh mesh;
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
     shape_cube(context, &mesh);
-    ewa_cloud *cloud = sample_points(&mesh, 100000);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = sample_points(&mesh, 100000);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     WITH_DEFAULTS(ewa_render_options, options);
     ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
@@ -182,10 +177,6 @@ TEST_ON(test_light_at_edges, 0) {
         }
     print_message("pixels of a cube: up to %.3f brighter than its faces, %.3f darker\n", brighter, darker);
     assert_true(brighter < 0.06 && darker < 0.03);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

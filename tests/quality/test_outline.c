@@ -125,7 +125,7 @@ TEST_ON(test_levels, 0) {
     for (int torus = 0; torus < 2; torus++) {
         const outline_shape shape = torus ? OUTLINE_TORUS : OUTLINE_SPHERE;
         outline_trace(context, shape, &camera, &truth);
-        ewa_cloud *cloud = estimated(context, shape, 100000);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = estimated(context, shape, 100000);
         for (uint32_t level = 1; level < 4; level++) {
             WITH_DEFAULTS(ewa_render_options, options);
             options.level = level;
@@ -135,7 +135,6 @@ TEST_ON(test_levels, 0) {
             assert_true(fabs(found.fat_px) < (level < 3 ? 0.1 : 0.3) && found.rms < (level < 3 ? 0.18 : 0.28));
             assert_true(found.open < 5e-3);
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -146,7 +145,7 @@ TEST_ON(test_octrees, 0) {
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
     outline_trace(context, OUTLINE_TORUS, &camera, &truth);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     for (int surfels = 0; surfels < 2; surfels++) {
         char points[512], octree[512];
         const char *const paths[1] = {scratch_path("torus.ply", points)};
@@ -174,7 +173,6 @@ TEST_ON(test_octrees, 0) {
         ewa_lod_close(&lod);
         unlink(points), unlink(octree);
     }
-    ewa_renderer_destroy(&renderer);
 }
 
 /// Octrees of bare points end where these do, and stay closed where nodes meet, which is amid a pixel here.
@@ -183,7 +181,7 @@ TEST_ON(test_octrees_end, 0) {
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     for (int square = 0; square < 2; square++) {
         const outline_shape shape = square ? OUTLINE_SQUARE : OUTLINE_DISC;
         outline_trace(context, shape, &camera, &truth);
@@ -207,7 +205,6 @@ TEST_ON(test_octrees_end, 0) {
         ewa_lod_close(&lod);
         unlink(points), unlink(octree);
     }
-    ewa_renderer_destroy(&renderer);
 }
 
 /// x that the normal distribution has the share `below` below -x, 0 < below < 1/2.
@@ -231,7 +228,7 @@ TEST_ON(test_silhouettes_follow_the_filter, 0) {
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
     outline_trace(context, OUTLINE_SPHERE, &camera, &truth);
-    ewa_cloud *cloud = generated(context, EWA_OBJECT_SPHERE, 400000);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = generated(context, EWA_OBJECT_SPHERE, 400000);
     ewa_cloud_remove(cloud, EWA_CURVATURE);
     static const double prefilters_px[] = {0.25, 0.35, 0.5, 0.7}, thresholds[] = {0.3, 0.45, 0.6};
     for (int i = 0; i < 12; i++) {
@@ -245,7 +242,6 @@ TEST_ON(test_silhouettes_follow_the_filter, 0) {
                       options.edge_threshold, found.fat_px, expected, found.rms);
         assert_true(fabs(found.fat_px - expected) < 0.03);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST_ON(test_borders, 0) {

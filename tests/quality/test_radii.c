@@ -31,6 +31,7 @@ TEST_ON(test_closed, 0) {
                   {"lines 20 : 1", RADII_LINES, 20, 20000, 1e-5, 4e-3},
                   {"noise of 1/4", RADII_NOISY, 0.25, 20000, 4e-4, 2e-2}};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
         radii_holes holes;
         radii_measure_holes(context, cloud, RADII_WHOLE | RADII_NEAR, 3, &holes);
@@ -42,7 +43,6 @@ TEST_ON(test_closed, 0) {
         assert_int_equal(holes.empty, 0);
         assert_true(translucent <= scenes[i].translucent);
         assert_true(thin <= scenes[i].thin);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -59,20 +59,20 @@ TEST_ON(test_limited, 0) {
                   {"lone points", RADII_LONE, 0, 20000, 3.05}, {"fog", RADII_FOG, 0, 20000, 3.8},
                   {"garden", RADII_GARDEN, 0, 20000, 4.2},     {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
         radii_sizes sizes;
         radii_measure_sizes(cloud, 300, &sizes);
         print_message("%s: radii of %.2f spacings, the largest %.2f\n", scenes[i].name, sizes.median,
                       sizes.largest);
         assert_true(sizes.largest <= scenes[i].largest);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// Single points above a plane get the plain radius of what is nearest, those of the plane stay as they were.
 TEST_ON(test_lone_points, 0) {
     enum { COUNT = 20000 };
-    ewa_cloud *cloud = make_scene(context, RADII_LONE, 0, COUNT);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_scene(context, RADII_LONE, 0, COUNT);
     const float *xyz = ewa_cloud_find(cloud, EWA_POSITION)->data,
                 *radius = ewa_cloud_find(cloud, EWA_RADIUS)->data;
     const double spacing = 2 / sqrt((double)COUNT);
@@ -83,13 +83,12 @@ TEST_ON(test_lone_points, 0) {
         assert_true((double)radius[i] > 0.5 * spacing && (double)radius[i] < 1.5 * spacing);
     }
     assert_int_equal(lone, COUNT / 5000);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// The radius of a place in the middle of a round hole in a plane of unit spacing.
 static double radius_in_hole(ewa_context *context, double hole) {
     enum { SIDE = 100 };
-    ewa_cloud *cloud = NULL, *left = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL, *left = NULL;
     uint64_t kept[SIDE * SIDE], count = 0;
     assert_int_equal(ewa_cloud_create(context, SIDE * SIDE, &cloud), EWA_OK);
     float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
@@ -104,8 +103,6 @@ static double radius_in_hole(ewa_context *context, double hole) {
     WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&left, &options), EWA_OK);
     const double radius = (double)((const float *)ewa_cloud_find(left, EWA_RADIUS)->data)[0];
-    ewa_cloud_destroy(&left);
-    ewa_cloud_destroy(&cloud);
     return radius;
 }
 

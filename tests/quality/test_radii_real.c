@@ -9,7 +9,7 @@ TEST_ON(test_garden, 0) {
     char path[1024];
     const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
     if (!file) skip();
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_load(context, file, &cloud), EWA_OK);
     WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
@@ -18,7 +18,6 @@ TEST_ON(test_garden, 0) {
     print_message("garden: the largest radius is %.2f spacings, %.3f of the diagonal\n", sizes.largest,
                   sizes.of_diagonal);
     assert_true(sizes.largest < 3.4 && sizes.of_diagonal < 0.03);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

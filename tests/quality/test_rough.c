@@ -10,8 +10,8 @@ enum { WIDTH = 960, HEIGHT = 540, PIXELS = WIDTH * HEIGHT, BORDER_PX = 3 };
 
 /// Draws a cloud's alpha; `bends`: with its curvatures, else as if it were flat.
 static void draw(ewa_context *context, ewa_cloud *cloud, bool bends, double elevation_deg, float *rgba) {
-    ewa_scene *scene = NULL;
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     ewa_asset *asset = NULL;
     WITH_DEFAULTS(ewa_scene_options, options);
     memset(options.render.background, 0, sizeof options.render.background);
@@ -26,8 +26,6 @@ static void draw(ewa_context *context, ewa_cloud *cloud, bool bends, double elev
     assert_int_equal(ewa_scene_place_camera(scene, &view, &camera, NULL), EWA_OK);
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     assert_int_equal(ewa_scene_draw(scene, renderer, &camera, NULL, &(ewa_frame){.rgba = rgba}, NULL), EWA_OK);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
 }
 
 /// Whether all pixels near one are opaque.
@@ -45,7 +43,7 @@ TEST_ON(test_ground, 0) {
         generate.object = EWA_OBJECT_TERRAIN;
         generate.point_count = k / 2 ? 60000 : 20000;
         generate.positions_only = true;
-        ewa_cloud *cloud = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
         WITH_DEFAULTS(ewa_estimate_options, options);
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
@@ -57,7 +55,6 @@ TEST_ON(test_ground, 0) {
             if (is_inner(flat, i % WIDTH, i / WIDTH)) inner++, opened += bent[4 * i + 3] < 0.9f;
         print_message("%llu points: %u of %u inner pixels opened\n", (unsigned long long)generate.point_count, opened, inner);
         assert_true(inner > 50000 && opened < 1e-4 * inner);
-        ewa_cloud_destroy(&cloud);
     }
 }
 

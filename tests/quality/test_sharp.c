@@ -89,14 +89,14 @@ TEST_ON(test_edges_close_up, 0) {
     };
     static float truth[4 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
     static uint8_t mask[SIDE * SIDE];
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         const ewa_solid_shape *shape = ewa_solid_shape_of(views[i].object);
         const ewa_camera camera = camera_at(views[i].eye, views[i].target, views[i].fov_deg);
         solid_picture(shape, &camera, RAYS, truth);
         solid_mark_edges(shape, &camera, EDGE_REACH_PX, mask);
         const ewa_frame frame = {.rgba = rgba};
-        ewa_cloud *sharp = make_solid(context, views[i].object, views[i].points, true);
+        OWNED(ewa_cloud_destroy) ewa_cloud *sharp = make_solid(context, views[i].object, views[i].points, true);
         draw(renderer, sharp, &camera, &frame);
         const double with_lines = psnr(rgba, truth, mask);
         ewa_cloud_remove(sharp, EWA_CLIP0);
@@ -106,18 +106,15 @@ TEST_ON(test_edges_close_up, 0) {
         double plain = without;
         if (views[i].object == EWA_OBJECT_CUBE) {
             // Rows half a spacing inside: as much as can be had without lines.
-            ewa_cloud *inside = make_solid(context, views[i].object, views[i].points, false);
+            OWNED(ewa_cloud_destroy) ewa_cloud *inside = make_solid(context, views[i].object, views[i].points, false);
             draw(renderer, inside, &camera, &frame);
             plain = psnr(rgba, truth, mask);
-            ewa_cloud_destroy(&inside);
         }
         print_message("%s: %.1f dB with clip lines, %.1f dB without, %.1f dB with no points on edges\n",
                       views[i].name, with_lines, without, plain);
         assert_true(with_lines >= without + 10);
         assert_true(with_lines >= plain + 10);
-        ewa_cloud_destroy(&sharp);
     }
-    ewa_renderer_destroy(&renderer);
 }
 
 /// The pixels of outlines: those where a single face ends before the background, two pixels around it and no
@@ -202,14 +199,13 @@ TEST_ON(test_outlines, 0) {
                    {EWA_KERNEL_AFFINE, "cube, affine"},
                    {EWA_KERNEL_SOURCE, "cube, source"},
                    {EWA_KERNEL_RAYCAST, "cube, raycast"}};
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++)
         hold_outlines(context, renderer, EWA_OBJECT_CUBE, 6000, kernels[i].kernel, EWA_CULL_NONE,
                       kernels[i].name);
     hold_outlines(context, renderer, EWA_OBJECT_CUBE, 6000, EWA_KERNEL_PERSPECTIVE, EWA_CULL_BACK,
                   "cube, back faces culled");
     hold_outlines(context, renderer, EWA_OBJECT_CSG, 7000, EWA_KERNEL_PERSPECTIVE, EWA_CULL_NONE, "part");
-    ewa_renderer_destroy(&renderer);
 }
 
 /// Whether a pixel and its surroundings of half a pixel are all within the solid's picture.
@@ -223,9 +219,9 @@ static bool is_inside(const ewa_solid_shape *shape, const ewa_camera *camera, in
 static void count_holes(ewa_object object, uint64_t points) {
     static float rgba[4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static uint8_t mask[SIDE * SIDE];
-    ewa_context *context = check_context(0, NULL);
-    ewa_renderer *renderer = check_renderer(context);
-    ewa_cloud *cloud = make_solid(context, object, points, true);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_solid(context, object, points, true);
     const ewa_solid_shape *shape = ewa_solid_shape_of(object);
     check_random random = {2004};
     uint64_t inside = 0, holes = 0, thin = 0;
@@ -260,9 +256,6 @@ static void count_holes(ewa_object object, uint64_t points) {
         cameras, (unsigned long long)inside, (unsigned long long)holes, (unsigned long long)thin, minimum);
     assert_true(inside > 1000);
     assert_int_equal(holes, 0);
-    ewa_cloud_destroy(&cloud);
-    ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_no_holes_along_edges) {

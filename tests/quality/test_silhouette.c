@@ -98,7 +98,7 @@ static bool surrounded_by(const scene *s, int x, int y, float truth) {
 }
 
 TEST_ON(test_silhouettes, 0) {
-    scene *s = calloc(1, sizeof *s);
+    OWNED(check_free) scene *s = calloc(1, sizeof *s);
     assert_non_null(s);
     const double eye[3] = {1.2, -2.6, 1.7}, target[3] = {0, 0, 0.05}, up[3] = {0, 0, 1};
     ewa_camera_init(&s->camera);
@@ -108,14 +108,14 @@ TEST_ON(test_silhouettes, 0) {
     ewa_camera_eye(&s->camera, s->eye);
     ewa_parallel(context, trace_row, s, SIDE);
 
-    ewa_cloud *cloud = check_cloud_of(context, 2 * PART_POINTS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 2 * PART_POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, NULL), EWA_OK);
     copy_part(context, EWA_OBJECT_TORUS, 2, 0, cloud, 0);
     copy_part(context, EWA_OBJECT_SPHERE, SPHERE_SIZE, SPHERE_HEIGHT, cloud, PART_POINTS);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     static float rgba[SIDE * SIDE][4];
     const ewa_frame frame = {.rgba = &rgba[0][0]};
     assert_int_equal(ewa_render(renderer, surfels, &s->camera, NULL, &frame, NULL), EWA_OK);
@@ -145,10 +145,6 @@ TEST_ON(test_silhouettes, 0) {
     assert_int_equal(outside, 0);
     assert_true(edge > 1000 && 10 * partial > 3 * edge);
     assert_true(fabs(bias / (double)edge) < 0.4 && error / (double)edge < 0.4);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    free(s);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

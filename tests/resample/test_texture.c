@@ -50,8 +50,8 @@ TEST(test_reference) {
     for (int channels = 1; channels <= 4; channels++) {
         if (channels == 2) continue;
         raster source = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 96, 80);
-        raster fast = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 150, 110);
-        raster slow = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 150, 110);
+        OWNED(raster_free) raster fast = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 150, 110);
+        OWNED(raster_free) raster slow = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 150, 110);
         raster_paint(&source, 5);
         for (int m = 0; m < MAPS; m++) {
             for (int method = 0; method < 4; method++) {
@@ -68,8 +68,6 @@ TEST(test_reference) {
             }
         }
         raster_free(&source);
-        raster_free(&fast);
-        raster_free(&slow);
     }
 }
 
@@ -77,7 +75,8 @@ TEST(test_reference) {
 TEST(test_reference_kernels) {
     static const double kernels[][4] = {
         {0.3, 2, 0.3, 0.5}, {0.7, 3, 0.5, 0.8}, {2, 4, 2, 1}, {0.1, 1, 1, 0.1}};
-    raster source = raster_make(EWA_PIXEL_SRGB8, 3, 96, 80);
+    OWNED(raster_free) raster source = raster_make(EWA_PIXEL_SRGB8, 3, 96, 80);
+    OWNED(raster_free)
     raster fast = raster_make(EWA_PIXEL_LINEAR, 4, 150, 110),
            slow = raster_make(EWA_PIXEL_LINEAR, 4, 150, 110);
     raster_paint(&source, 6);
@@ -100,42 +99,36 @@ TEST(test_reference_kernels) {
             }
         }
     }
-    raster_free(&source);
-    raster_free(&fast);
-    raster_free(&slow);
 }
 
 /// The same bytes for one thread and for many, and from each instruction set.
 TEST(test_same_bytes) {
-    raster source = raster_make(EWA_PIXEL_SRGB8, 4, 130, 117);
+    OWNED(raster_free) raster source = raster_make(EWA_PIXEL_SRGB8, 4, 130, 117);
     raster_paint(&source, 8);
     for (int m = 0; m < MAPS; m++) {
         for (int method = 0; method < 4; method++) {
-            raster first = raster_make(EWA_PIXEL_SRGB8, 4, 150, 110);
+            OWNED(raster_free) raster first = raster_make(EWA_PIXEL_SRGB8, 4, 150, 110);
             const ewa_mat3 map = texture_map_of(maps[m].h);
             const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
             const uint32_t threads[] = {1, 5, 2, 2};
             for (int k = 0; k < 4; k++) {
-                ewa_context *other = check_context_of(threads[k], masks[k]);
-                raster again = raster_make(EWA_PIXEL_SRGB8, 4, 150, 110);
+                OWNED(ewa_context_destroy) ewa_context *other = check_context_of(threads[k], masks[k]);
+                OWNED(raster_free) raster again = raster_make(EWA_PIXEL_SRGB8, 4, 150, 110);
                 ewa_texture_options options = texture_options((ewa_texture_method)method);
                 options.repeat = m % 2 && method != EWA_TEXTURE_SPLAT;
                 texture_draw(other, &source, &map, &options, k ? &again : &first);
                 if (k && !raster_same(&first, &again))
                     fail_msg("%s, %s: run %d differs by %g", maps[m].name, methods[method], k,
                              raster_difference(&first, &again));
-                raster_free(&again);
-                ewa_context_destroy(&other);
             }
-            raster_free(&first);
         }
     }
-    raster_free(&source);
 }
 
 /// Identity keeps every pixel covered and blurs a little: by the filter and the discs together, whose
 /// standard deviation is half a pixel. A smooth image comes back within 1 %.
 TEST(test_identity) {
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 100, 90),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 100, 90);
     for (uint32_t y = 0; y < 90; y++)
@@ -169,16 +162,15 @@ TEST(test_identity) {
     assert_float_equal(raster_get(&target, 51, 40, 0) / middle, exp(-0.5 / variance), 1e-4);
     assert_float_equal(raster_get(&target, 51, 41, 0) / middle, exp(-1 / variance), 1e-4);
     assert_true(raster_get(&target, 53, 40, 0) == 0);
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// Whole shifts move the bytes, also across tiles.
 TEST(test_shift) {
-    raster source = raster_make(EWA_PIXEL_SRGB8, 4, 90, 70);
+    OWNED(raster_free) raster source = raster_make(EWA_PIXEL_SRGB8, 4, 90, 70);
     raster_paint(&source, 12);
     for (int method = 0; method < 4; method++) {
         const ewa_texture_options options = texture_options((ewa_texture_method)method);
+        OWNED(raster_free)
         raster still = raster_make(EWA_PIXEL_SRGB8, 4, 90, 70),
                moved = raster_make(EWA_PIXEL_SRGB8, 4, 200, 170);
         ewa_mat3 map = texture_map_of(identity);
@@ -194,15 +186,13 @@ TEST(test_shift) {
                                 (inside ? raster_get(&still, x - 57, y - 93, c) : 0));
             }
         }
-        raster_free(&still);
-        raster_free(&moved);
     }
-    raster_free(&source);
 }
 
 /// One colour stays that colour, wherever it is seen, and alpha is the share of the pixel that is covered:
 /// all of it together is the area of the quadrangle.
 TEST(test_constant_and_area) {
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 96, 80),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 150, 110);
     static const double color[3] = {0.2, 0.5, 0.8};
@@ -240,12 +230,11 @@ TEST(test_constant_and_area) {
             assert_float_equal(sum, fabs(area), method == EWA_TEXTURE_BILINEAR ? 1e-2 : 0.002 * fabs(area));
         }
     }
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// Where a texture is minified, its mean stays.
 TEST(test_energy) {
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_LINEAR, 1, 512, 384),
            target = raster_make(EWA_PIXEL_LINEAR, 1, 128, 96);
     check_random random = {3};
@@ -264,8 +253,6 @@ TEST(test_energy) {
             for (uint32_t x = 0; x < 128; x++) sum += raster_get(&target, x, y, 0) / (128 * 96);
         assert_float_equal(sum, mean, 1e-3);
     }
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// 8-bit and float sources and targets say the same; straight and premultiplied alpha too.
@@ -287,8 +274,8 @@ TEST(test_formats) {
                 if (channels == 4) raster_set(&floats, x, y, 3, alpha);
             }
         raster of_bytes = raster_make(EWA_PIXEL_LINEAR, channels, 120, 80);
-        raster of_floats = raster_make(EWA_PIXEL_LINEAR, channels, 120, 80);
-        raster coded = raster_make(EWA_PIXEL_SRGB8, channels, 120, 80);
+        OWNED(raster_free) raster of_floats = raster_make(EWA_PIXEL_LINEAR, channels, 120, 80);
+        OWNED(raster_free) raster coded = raster_make(EWA_PIXEL_SRGB8, channels, 120, 80);
         texture_draw(context, &bytes, &map, &options, &of_bytes);
         texture_draw(context, &floats, &map, &options, &of_floats);
         texture_draw(context, &floats, &map, &options, &coded);
@@ -307,13 +294,12 @@ TEST(test_formats) {
         raster_free(&bytes);
         raster_free(&floats);
         raster_free(&of_bytes);
-        raster_free(&of_floats);
-        raster_free(&coded);
     }
 }
 
 /// What lies behind the eye does not show: the picture above the horizon stays empty.
 TEST(test_horizon) {
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 100, 100);
     raster_paint(&source, 2);
@@ -335,8 +321,6 @@ TEST(test_horizon) {
             }
         }
     }
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// Repeating is the same as a texture of copies, for sides of any factors; where one draws levels and the
@@ -345,8 +329,8 @@ TEST(test_repeat) {
     static const uint32_t sides[][2] = {{32, 32}, {12, 20}, {7, 5}, {1, 1}, {13, 64}};
     for (size_t k = 0; k < 5; k++) {
         const uint32_t width = sides[k][0], height = sides[k][1], across = 1200 / width, down = 1200 / height;
-        raster one = raster_make(EWA_PIXEL_SRGB8, 3, width, height);
-        raster many = raster_make(EWA_PIXEL_SRGB8, 3, width * across, height * down);
+        OWNED(raster_free) raster one = raster_make(EWA_PIXEL_SRGB8, 3, width, height);
+        OWNED(raster_free) raster many = raster_make(EWA_PIXEL_SRGB8, 3, width * across, height * down);
         raster_paint(&one, 40 + k);
         for (uint32_t y = 0; y < height * down; y++)
             for (uint32_t x = 0; x < width * across; x++)
@@ -363,20 +347,16 @@ TEST(test_repeat) {
             const ewa_mat3 of_many = ewa_mat3_concatenate(&back, &of_one);
             for (int method = 0; method < 4; method += 3) {
                 ewa_texture_options options = texture_options((ewa_texture_method)method);
-                raster a_picture = raster_make(EWA_PIXEL_LINEAR, 3, 70, 70);
-                raster b_picture = raster_make(EWA_PIXEL_LINEAR, 3, 70, 70);
+                OWNED(raster_free) raster a_picture = raster_make(EWA_PIXEL_LINEAR, 3, 70, 70);
+                OWNED(raster_free) raster b_picture = raster_make(EWA_PIXEL_LINEAR, 3, 70, 70);
                 texture_draw(context, &many, &of_many, &options, &a_picture);
                 options.repeat = true;
                 texture_draw(context, &one, &of_one, &options, &b_picture);
                 const double rms = raster_rms(&a_picture, &b_picture);
                 if (!(rms < 1.5e-2))
                     fail_msg("%u x %u, scale %g, %s: rms %g", width, height, a, methods[method], rms);
-                raster_free(&a_picture);
-                raster_free(&b_picture);
             }
         }
-        raster_free(&one);
-        raster_free(&many);
     }
 }
 
@@ -393,8 +373,8 @@ static bool pull_back(const double h[9], double x, double y, double *u, double *
 /// distance leaves of a texel along u and along v.
 TEST(test_bilinear) {
     enum { WIDTH = 150, HEIGHT = 110, U = 96, V = 80 };
-    raster source = raster_make(EWA_PIXEL_LINEAR, 4, U, V);
-    raster target = raster_make(EWA_PIXEL_LINEAR, 4, WIDTH, HEIGHT);
+    OWNED(raster_free) raster source = raster_make(EWA_PIXEL_LINEAR, 4, U, V);
+    OWNED(raster_free) raster target = raster_make(EWA_PIXEL_LINEAR, 4, WIDTH, HEIGHT);
     raster_paint(&source, 11);
     for (int m = 0; m < 8; m++) {
         const ewa_mat3 map = texture_map_of(maps[m].h);
@@ -425,8 +405,6 @@ TEST(test_bilinear) {
         }
         if (compared < 100) fail_msg("%s: %d pixels", maps[m].name, compared);
     }
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// Where neighbours along one axis part ever farther along the other, like the ribs of a fan, only texels
@@ -441,8 +419,8 @@ TEST(test_points_of_a_fan) {
         const double fan[9] = {wide, shift * tilt, shift, 0, high, 0, 0, tilt, 1};
         const double swapped[9] = {shift * tilt, wide, shift, high, 0, 0, tilt, 0, 1};
         const ewa_mat3 map = texture_map_of(turned ? swapped : fan);
-        raster source = raster_make(EWA_PIXEL_LINEAR, 3, turned ? LONG : RIBS, turned ? RIBS : LONG);
-        raster target = raster_make(EWA_PIXEL_LINEAR, 3, 200, 12);
+        OWNED(raster_free) raster source = raster_make(EWA_PIXEL_LINEAR, 3, turned ? LONG : RIBS, turned ? RIBS : LONG);
+        OWNED(raster_free) raster target = raster_make(EWA_PIXEL_LINEAR, 3, 200, 12);
         ewa_texture_options options = texture_options(EWA_TEXTURE_HYBRID);
         options.point_spacing_px = 0.55; // no texel is just as close
         uint64_t minified = 0;
@@ -460,8 +438,6 @@ TEST(test_points_of_a_fan) {
         print_message("fan %d: %llu of %d texels are close, %llu are points\n", k,
                       (unsigned long long)minified, RIBS * LONG, (unsigned long long)stats.point_texel_count);
         assert_true(stats.point_texel_count <= minified && stats.point_texel_count > minified / 4);
-        raster_free(&source);
-        raster_free(&target);
     }
 }
 
@@ -469,8 +445,8 @@ TEST(test_points_of_a_fan) {
 TEST(test_tiny) {
     static const uint32_t sides[][2] = {{1, 1}, {1, 9}, {33, 1}, {2, 2}};
     for (size_t k = 0; k < 4; k++) {
-        raster source = raster_make(EWA_PIXEL_SRGB8, 4, sides[k][0], sides[k][1]);
-        raster target = raster_make(EWA_PIXEL_SRGB8, 4, sides[3 - k][0], sides[3 - k][1]);
+        OWNED(raster_free) raster source = raster_make(EWA_PIXEL_SRGB8, 4, sides[k][0], sides[k][1]);
+        OWNED(raster_free) raster target = raster_make(EWA_PIXEL_SRGB8, 4, sides[3 - k][0], sides[3 - k][1]);
         for (uint32_t y = 0; y < sides[k][1]; y++)
             for (uint32_t x = 0; x < sides[k][0]; x++)
                 for (uint32_t c = 0; c < 4; c++) raster_set(&source, x, y, c, c == 3 ? 255 : 100);
@@ -487,8 +463,6 @@ TEST(test_tiny) {
                     for (uint32_t c = 0; c < 4; c++)
                         assert_int_equal(raster_get(&target, x, y, c), c == 3 ? 255 : 100);
         }
-        raster_free(&source);
-        raster_free(&target);
     }
 }
 

@@ -99,6 +99,7 @@ static void refuse(const raster *source, const ewa_mat3 *map, const ewa_texture_
 }
 
 TEST(test_refused) {
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 8, 6), target = raster_make(EWA_PIXEL_LINEAR, 4, 10, 9);
     const ewa_mat3 good = mat3_identity();
     static const double singular[][9] = {
@@ -159,13 +160,12 @@ TEST(test_refused) {
     bad = target;
     bad.target.pixels = (char *)bad.memory + 1;
     refuse(&source, &good, NULL, &bad, EWA_ERROR_ARGUMENT, "aligned");
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// Whatever the numbers of a map are, drawing ends, and what is drawn is finite.
 TEST(test_wild_maps) {
     check_random random = {77};
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 40, 30),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 70, 66);
     raster_paint(&source, 1);
@@ -193,12 +193,12 @@ TEST(test_wild_maps) {
     }
     assert_true(drawn > 140);
     // Colours that are not finite stay where they are, and nothing crashes.
-    raster floats = raster_make(EWA_PIXEL_LINEAR, 4, 40, 30);
+    OWNED(raster_free) raster floats = raster_make(EWA_PIXEL_LINEAR, 4, 40, 30);
     raster_paint(&floats, 2);
     raster_set(&floats, 20, 15, 1, NAN);
     raster_set(&floats, 3, 3, 0, INFINITY);
     raster_set(&floats, 5, 5, 3, (double)-FLT_MAX);
-    raster coded = raster_make(EWA_PIXEL_SRGB8, 4, 70, 66);
+    OWNED(raster_free) raster coded = raster_make(EWA_PIXEL_SRGB8, 4, 70, 66);
     const ewa_mat3 map = mat3_identity();
     for (int method = 0; method < 4; method++) {
         const ewa_texture_options options = texture_options((ewa_texture_method)method);
@@ -206,14 +206,11 @@ TEST(test_wild_maps) {
         texture_draw(context, &floats, &map, &options, &target);
         assert_true(raster_get(&target, 30, 20, 1) >= 0);
     }
-    raster_free(&floats);
-    raster_free(&coded);
-    raster_free(&source);
-    raster_free(&target);
 }
 
 /// A failing allocation, whichever it is, fails the call and leaves nothing behind.
 TEST(test_memory) {
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 256, 256),
            target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     raster_paint(&source, 1);
@@ -236,8 +233,6 @@ TEST(test_memory) {
         }
         assert_true(failures >= (reference ? 1 : 3));
     }
-    raster_free(&source);
-    raster_free(&target);
 }
 
 static bool cancel(void *user, const char *stage, double fraction) {
@@ -247,17 +242,15 @@ static bool cancel(void *user, const char *stage, double fraction) {
 
 TEST(test_cancelled) {
     static const double ends[] = {0, 0.2, 0.9};
+    OWNED(raster_free)
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64), target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     const ewa_mat3 map = mat3_identity();
     for (int k = 0; k < 3; k++) {
         double end = ends[k];
-        ewa_context *made = check_context_telling(0, cancel, &end);
+        OWNED(ewa_context_destroy) ewa_context *made = check_context_telling(0, cancel, &end);
         assert_int_equal(ewa_texture_map(made, &source.source, &map, NULL, &target.target, NULL),
                          EWA_CANCELLED);
-        ewa_context_destroy(&made);
     }
-    raster_free(&source);
-    raster_free(&target);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -11,7 +11,7 @@ static plane_image plane;
 static plane_frame drawn, other;
 
 TEST_ON(test_masked_depths, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     ewa_warp_facts facts;
     plane_take(warp, &plane, &facts);
@@ -37,11 +37,10 @@ TEST_ON(test_masked_depths, 2) {
             assert_true(isinf(drawn.depth[i]));
         }
     }
-    ewa_warp_destroy(&warp);
 }
 
 TEST_ON(test_sixteen_bits, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     static uint16_t numbers[PLANE_PIXELS];
     for (int i = 0; i < PLANE_PIXELS; i++) numbers[i] = (uint16_t)(2000 + i % 7);
@@ -61,12 +60,11 @@ TEST_ON(test_sixteen_bits, 2) {
     ewa_warp_facts facts;
     plane_take(warp, &plane, &facts);
     assert_int_equal(facts.sample_count, PLANE_PIXELS - 2);
-    ewa_warp_destroy(&warp);
 }
 
 /// z, distance and disparity of one slanted plane give the same surface, whose normals are known.
 TEST_ON(test_kinds, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     const double n[3] = {0.4, -0.3, -0.866025403784}, at = -2 * n[2]; // n.p = -at
     for (int kind = 0; kind < 3; kind++) {
         plane_set(&plane, 1);
@@ -92,12 +90,11 @@ TEST_ON(test_kinds, 2) {
             for (int c = 0; c < 3; c++) assert_true(fabs((double)drawn.normal[3 * i + c] - n[c]) < 2e-3);
         }
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// The covariance of the packed ellipses is that of the axes they were made of.
 TEST_ON(test_packed_ellipses, 1) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 1);
     plane.image.camera.fy_px = 50; // samples that are no squares
     const double n[3] = {0.6, 0.3, -0.74161984871}, at = -2 * n[2];
@@ -128,7 +125,6 @@ TEST_ON(test_packed_ellipses, 1) {
                 assert_true(fabs(u[r] * u[c] + v[r] * v[c] - a[r] * a[c] - b[r] * b[c]) < 4e-3 * scale);
         assert_true(fabs(center.x - z * x) + fabs(center.y - z * y) + fabs(center.z - z) < 1e-5);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// The normal of the surfel that a pixel was made into.
@@ -144,7 +140,7 @@ static ewa_vec3 normal_at(const ewa_warp *warp, uint32_t column, uint32_t row) {
 /// Roofs whose sides' slopes differ by more than 0.36 have a crease: a surfel at the ridge lies on one side.
 /// Flatter ones are bent, and it lies between both. Along rows and columns, with pixels that are no squares.
 TEST_ON(test_creases, 1) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     static const double slopes[] = {0.05, 0.12, 0.16, 0.2, 0.25, 0.33};
     for (int k = 0; k < 12; k++) {
         const double slope = slopes[k / 2];
@@ -166,13 +162,12 @@ TEST_ON(test_creases, 1) {
         assert_float_equal(fabs((down ? beside.y : beside.x) / beside.z), slope, 4e-3);
         assert_float_equal(across, 2 * slope > 0.36 ? slope : 0, 4e-3);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// What a plane's grid adds up to, seen from where it was taken, whatever the kernels' size and cutoff are:
 /// the sum is told as the coverage that a whole surface has.
 TEST_ON(test_coverage_of_planes, 1) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     static const double cutoffs[] = {1.5, 2, 3}, radii[] = {1.1, 1.3, 1.5};
     for (int k = 0; k < 9; k++) {
         plane_set(&plane, 2);
@@ -189,7 +184,6 @@ TEST_ON(test_coverage_of_planes, 1) {
             for (int x = 40; x < 56; x++) mean += (double)drawn.coverage[y * PLANE_WIDTH + x], count++;
         assert_float_equal(mean / count, 1, 0.02);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// Rows with gaps between them, floats instead of bytes, grey and alpha.
@@ -206,7 +200,7 @@ TEST_ON(test_layouts, 2) {
     enum { STRIDE = PLANE_WIDTH + 13 };
     static float depth[PLANE_HEIGHT * STRIDE], color[4 * PLANE_HEIGHT * STRIDE];
     static uint8_t color8[4 * PLANE_HEIGHT * STRIDE];
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     const ewa_camera target = plane_camera_at(0.07, -0.03, 0.2);
     plane_take(warp, &plane, NULL);
@@ -259,7 +253,6 @@ TEST_ON(test_layouts, 2) {
         }
         assert_true(grey > PLANE_PIXELS / 2);
     }
-    ewa_warp_destroy(&warp);
 }
 
 static void expect(ewa_warp *warp, check_log *log, ewa_status status, const char *said) {
@@ -269,60 +262,54 @@ static void expect(ewa_warp *warp, check_log *log, ewa_status status, const char
     plane_set(&plane, 2);
 }
 
-TEST(test_bad_images) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_warp *warp = plane_warp(context);
+TEST_LOGGED(test_bad_images, 1) {
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane.image.camera.fx_px = 0;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "fx");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "fx");
     plane.image.camera.projection = EWA_ORTHOGRAPHIC;
-    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "orthographic");
+    expect(warp, log, EWA_ERROR_UNSUPPORTED, "orthographic");
     plane.image.camera.fx_px = 1e9;
-    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "focal lengths");
+    expect(warp, log, EWA_ERROR_UNSUPPORTED, "focal lengths");
     plane.image.camera.world_to_camera[3] = 1e13;
-    expect(warp, &log, EWA_ERROR_UNSUPPORTED, "place of the camera");
+    expect(warp, log, EWA_ERROR_UNSUPPORTED, "place of the camera");
     plane.image.depth = NULL;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "no depth");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "no depth");
     plane.image.depth_type = EWA_F64;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "depth_type");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "depth_type");
     plane.image.depth_stride_bytes = 4 * PLANE_WIDTH - 1;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "depth_stride_bytes");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "depth_stride_bytes");
     plane.image.kind = (ewa_depth_kind)7;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "kind");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "kind");
     plane.image.depth_scale = 0;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "depth_scale is 0");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "depth_scale is 0");
     plane.image.kind = EWA_DEPTH_DISPARITY;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "baseline_world is 0");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "baseline_world is 0");
     plane.image.kind = EWA_DEPTH_DISPARITY, plane.image.baseline_world = 1;
     plane.image.disparity_offset_px = NAN;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "disparity_offset_px");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "disparity_offset_px");
     plane.image.color_type = EWA_I16;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "color_type");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "color_type");
     plane.image.color_channel_count = 2;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "color_channel_count is 2");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "color_channel_count is 2");
     plane.image.color_stride_bytes = 3 * PLANE_WIDTH - 1;
-    expect(warp, &log, EWA_ERROR_ARGUMENT, "color_stride_bytes");
+    expect(warp, log, EWA_ERROR_ARGUMENT, "color_stride_bytes");
     // After a failure there is nothing to draw.
     const ewa_frame frame = {.rgba8 = drawn.rgba8};
     assert_int_equal(ewa_warp_draw(warp, &plane.image.camera, EWA_WARP_HYBRID, NULL, &frame, NULL, NULL),
                      EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "no depth image"));
-    expect(warp, &log, EWA_OK, "");
+    assert_non_null(strstr(log->text, "no depth image"));
+    expect(warp, log, EWA_OK, "");
     ewa_camera broken = plane.image.camera;
     broken.width_px = 0;
     assert_int_equal(ewa_warp_draw(warp, &broken, EWA_WARP_MCMILLAN, NULL, &frame, NULL, NULL),
                      EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_warp_draw(warp, &plane.image.camera, (ewa_warp_method)9, NULL, &frame, NULL, NULL),
                      EWA_ERROR_ARGUMENT);
-    ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_bad_options) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_warp *warp = plane_warp(context);
+TEST_LOGGED(test_bad_options, 1) {
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     for (int k = 0; k < 8; k++) {
         static const char *const said[] = {"struct_size", "cutoff",        "radius_spacings", "depth_jump",
@@ -342,28 +329,24 @@ TEST(test_bad_options) {
         else
             *members[k] = bad[k];
         assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &options, NULL), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, said[k]));
+        assert_non_null(strstr(log->text, said[k]));
     }
     assert_int_equal(ewa_warp_take(warp, &plane.image, 0, NULL, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_warp_take(NULL, &plane.image, 1, NULL, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_warp_create(NULL, &warp), EWA_ERROR_ARGUMENT);
     ewa_warp_destroy(NULL);
-    ewa_warp_destroy(&warp);
-    ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 static ewa_status work(ewa_context *context, void *user) {
     const ewa_depth_image *image = user;
     const ewa_depth_image images[2] = {*image, *image};
-    ewa_warp *warp = NULL;
+    OWNED(ewa_warp_destroy) ewa_warp *warp = NULL;
     ewa_status status = ewa_warp_create(context, &warp);
     if (status == EWA_OK) status = ewa_warp_take(warp, images, 2, NULL, NULL);
     const ewa_frame frame = {.rgba8 = drawn.rgba8, .depth = drawn.depth};
     for (int method = 0; method < 2 && status == EWA_OK; method++)
         status =
             ewa_warp_draw(warp, &image->camera, (ewa_warp_method)method, NULL, &frame, drawn.holes, NULL);
-    ewa_warp_destroy(&warp);
     return status;
 }
 
@@ -384,10 +367,9 @@ TEST(test_every_stop_is_clean) {
         status = work(context, &plane.image);
         if (status != EWA_OK) assert_int_equal(status, EWA_CANCELLED);
         if (stops == 0) {
-            ewa_warp *warp = NULL;
+            OWNED(ewa_warp_destroy) ewa_warp *warp = NULL;
             assert_int_equal(ewa_warp_create(context, &warp), EWA_OK);
             assert_int_equal(ewa_warp_take(warp, &plane.image, 1, NULL, NULL), EWA_CANCELLED);
-            ewa_warp_destroy(&warp);
         }
         ewa_context_destroy(&context);
         assert_int_equal(memory.held_bytes, 0);

@@ -44,7 +44,7 @@ TEST_ON(test_order, 2) {
                                        {0.4, 0, 0},    {-0.4, 0, 0},     {0, 0.3, 0},       {0, -0.3, 0},
                                        {0.3, 0.3, 0},  {-0.3, 0.2, 0.1}, {-0.3, -0.3, 0.7}, {0.5, -0.2, -0.3},
                                        {0.24, 0, 0.4}, {0, 0, 0}};
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     make_scene();
     WITH_DEFAULTS(ewa_warp_options, options);
     options.drop_flying = false;
@@ -68,12 +68,11 @@ TEST_ON(test_order, 2) {
         if (hidden > (minified ? 3 : 0) || differ > (minified ? drawn_count / 12 : 0))
             fail_msg("place %zu: %d of %d differ, %d hidden ones show", k, differ, drawn_count, hidden);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// The identity gives the bytes of the picture.
 TEST_ON(test_identity, 1) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     make_scene();
     plane_take(warp, &plane, NULL);
     plane_draw(warp, &plane.image.camera, EWA_WARP_MCMILLAN, &drawn);
@@ -84,13 +83,12 @@ TEST_ON(test_identity, 1) {
         assert_true(drawn.coverage[i] == 1);
         assert_true(drawn.normal[3 * i + 2] < 0);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// Of two sources the nearer one shows, whichever comes first.
 TEST_ON(test_two_sources, 2) {
     static plane_image near;
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 3);
     plane_set(&near, 1);
     memset(near.rgb8, 200, sizeof near.rgb8);
@@ -103,7 +101,6 @@ TEST_ON(test_two_sources, 2) {
         for (int i = 0; i < PLANE_PIXELS; i++)
             assert_true(fabsf(drawn.depth[i] - (i % PLANE_WIDTH > 40 ? 3.0f : 1.0f)) < 1e-5f);
     }
-    ewa_warp_destroy(&warp);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

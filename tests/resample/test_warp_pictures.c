@@ -12,7 +12,7 @@ TEST_ON(test_identity, 2) {
     enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
     static uint8_t color[3 * COUNT], rgba8[4 * COUNT], rgb8[3 * COUNT];
     static float depth[COUNT];
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     ewa_depth_image image;
     ewa_depth_image_init(&image);
     image.camera = warp_scene_camera(WIDTH, HEIGHT, 0, 0, 0);
@@ -27,12 +27,11 @@ TEST_ON(test_identity, 2) {
     const picture_likeness likeness = picture_compare(WIDTH, HEIGHT, rgb8, color, NULL);
     print_message("identity: %.2f dB, SSIM %.4f\n", likeness.psnr_db, likeness.ssim);
     assert_true(likeness.psnr_db > 40 && likeness.ssim > 0.995);
-    ewa_warp_destroy(&warp);
 }
 
 /// A step of the camera that is five pixels on the plane.
 TEST_ON(test_shift, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_take(warp, &plane, NULL);
     const ewa_camera target = plane_camera_at(5 * 2 / 80.0, 0, 0);
@@ -50,11 +49,10 @@ TEST_ON(test_shift, 2) {
                 assert_int_equal(other.holes[y * PLANE_WIDTH + x], x >= PLANE_WIDTH - 5 ? 255 : 0);
         }
     }
-    ewa_warp_destroy(&warp);
 }
 
 TEST_ON(test_constant, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     memset(plane.rgb8, 137, sizeof plane.rgb8);
     check_random random = {5};
@@ -66,13 +64,12 @@ TEST_ON(test_constant, 2) {
         for (int i = 0; i < PLANE_PIXELS; i++)
             for (int c = 0; c < 3; c++) assert_true(!drawn.rgba8[4 * i + 3] || drawn.rgba8[4 * i + c] == 137);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// A white half at 1 before a black one at 2, moved by 6 and 3 pixels: where the edge is, how wide, and the
 /// three columns that nothing fills.
 TEST_ON(test_step, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     for (int i = 0; i < PLANE_PIXELS; i++) {
         const bool near = i % PLANE_WIDTH < 40;
@@ -108,12 +105,11 @@ TEST_ON(test_step, 2) {
             if (x < 46) assert_in_range(other.rgba8[4 * at], 250, 255);
             if (x > 46) assert_in_range(other.rgba8[4 * at], 0, 5);
         }
-    ewa_warp_destroy(&warp);
 }
 
 /// What hangs between two surfaces is dropped, unless it is asked for.
 TEST_ON(test_flying, 1) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     for (int i = 0; i < PLANE_PIXELS; i++) {
         const int x = i % PLANE_WIDTH;
@@ -131,12 +127,11 @@ TEST_ON(test_flying, 1) {
     for (int i = 0; i < PLANE_PIXELS; i++) plane.depth[i] = i % PLANE_WIDTH == 40 ? 1 : 2;
     plane_take(warp, &plane, &facts);
     assert_int_equal(facts.sample_count, PLANE_PIXELS);
-    ewa_warp_destroy(&warp);
 }
 
 /// Rows and columns without depth, as depth cameras leave them, are covered; wider gaps are not.
 TEST_ON(test_lattice, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     const ewa_camera target = plane_camera_at(0.02, 0.01, 0.3);
     for (int gap = 1; gap < 3; gap++) {
         plane_set(&plane, 2);
@@ -148,12 +143,11 @@ TEST_ON(test_lattice, 2) {
         for (int i = 0; i < PLANE_PIXELS; i++) hole_count += drawn.holes[i] > 0;
         assert_true(gap == 1 ? hole_count == 0 : hole_count > PLANE_PIXELS / 20);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// Steps of a sensor fade out; edges stay.
 TEST_ON(test_noise, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     const float step = 0.004f;
     check_random random = {9};
@@ -176,13 +170,12 @@ TEST_ON(test_noise, 2) {
         }
     }
     assert_true(error[0] > 1.5e-3 && error[1] < 0.6 * error[0]);
-    ewa_warp_destroy(&warp);
 }
 
 /// Two views of one plane, in either order.
 TEST_ON(test_source_order, 2) {
     static plane_image second;
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_set(&second, 2.5);
     second.image.camera = plane_camera_at(0.3, 0.1, 0);
@@ -196,7 +189,6 @@ TEST_ON(test_source_order, 2) {
         assert_memory_equal(drawn.holes, other.holes, sizeof drawn.holes);
         for (int i = 0; i < 4 * PLANE_PIXELS; i++) assert_in_range(drawn.rgba8[i] - other.rgba8[i] + 1, 0, 2);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// The same bytes from any number of threads and every instruction set, also from ragged sizes and noise.
@@ -213,8 +205,8 @@ TEST(test_same_bytes) {
     plane.image.camera.width_px = 61;
     plane.image.camera.height_px = 53;
     for (size_t k = 0; k < sizeof machines / sizeof machines[0]; k++) {
-        ewa_context *context = check_context_of(machines[k].threads, machines[k].mask);
-        ewa_warp *warp = plane_warp(context);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(machines[k].threads, machines[k].mask);
+        OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
         WITH_DEFAULTS(ewa_warp_options, warp_options);
         warp_options.depth_noise = 0.002;
         assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &warp_options, NULL), EWA_OK);
@@ -224,15 +216,13 @@ TEST(test_same_bytes) {
             if (k == 0) first[method] = drawn;
             assert_memory_equal(&first[method], &drawn, sizeof drawn);
         }
-        ewa_warp_destroy(&warp);
-        ewa_context_destroy(&context);
     }
 }
 
 /// A camera behind the scene, one inside of it, one that looks away; the backs of all samples are dropped on
 /// request.
 TEST_ON(test_strange_cameras, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_take(warp, &plane, NULL);
     ewa_camera behind = plane_camera();
@@ -255,12 +245,11 @@ TEST_ON(test_strange_cameras, 2) {
         plane_draw(warp, &blind, (ewa_warp_method)method, &drawn);
         for (int i = 0; i < PLANE_PIXELS; i++) assert_int_equal(drawn.holes[i], 255);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// The background behind holes is the renderer's, whether or not the holes are asked for.
 TEST_ON(test_background, 2) {
-    ewa_warp *warp = plane_warp(context);
+    OWNED(ewa_warp_destroy) ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_take(warp, &plane, NULL);
     ewa_render_options options;
@@ -276,7 +265,6 @@ TEST_ON(test_background, 2) {
         assert_in_range(drawn.rgba8[i] - other.rgba8[i] + 1, 0, 2);
         assert_true(fabsf(drawn.rgba[i] - other.rgba[i]) < 1e-5f);
     }
-    ewa_warp_destroy(&warp);
 }
 
 /// Known answers of the measures that docs/warp.md uses.

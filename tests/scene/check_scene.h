@@ -32,11 +32,10 @@ static inline void add_cloud(ewa_context *context, ewa_scene *scene, const ewa_c
 }
 
 static inline void draw(ewa_context *context, ewa_scene *scene, const ewa_camera *camera, planes *to) {
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     const ewa_frame frame = {to->rgba8, to->rgba, to->depth, to->normal, to->coverage};
     assert_int_equal(ewa_scene_draw(scene, renderer, camera, NULL, &frame, NULL), EWA_OK);
-    ewa_scene_renderer_destroy(&renderer);
 }
 
 static inline ewa_scene *make_scene(ewa_context *context) {

@@ -66,7 +66,7 @@ static void draw(const scan *scans, int count, const ewa_coloring *coloring, loo
     options.message = count_notes;
     options.message_user = &to->notes;
     options.message_level = EWA_SEVERITY_NOTE;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     ewa_scene *scene = NULL;
     ewa_scene_renderer *renderer = NULL;
@@ -74,12 +74,11 @@ static void draw(const scan *scans, int count, const ewa_coloring *coloring, loo
     ewa_cloud *clouds[2] = {NULL};
     for (int k = 0; k < count; k++) {
         clouds[k] = make_scan(context, &scans[k], k * (SIDE + 10.0));
-        ewa_asset *asset = NULL;
+        OWNED(ewa_asset_release) ewa_asset *asset = NULL;
         WITH_DEFAULTS(ewa_instance, instance);
         if (coloring) instance.coloring = *coloring;
         assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = clouds[k]}, NULL, &asset), EWA_OK);
         assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
-        ewa_asset_release(&asset);
     }
     ewa_camera camera = {.projection = EWA_ORTHOGRAPHIC, .width_px = WIDTH, .height_px = HEIGHT};
     const double pixels_per_unit = WIDTH / (count * (SIDE + 10.0)), down[16] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 50, 0, 0, 0, 1};
@@ -96,7 +95,6 @@ static void draw(const scan *scans, int count, const ewa_coloring *coloring, loo
     ewa_scene_renderer_destroy(&renderer);
     ewa_scene_destroy(&scene);
     for (int k = 0; k < count; k++) ewa_cloud_destroy(&clouds[k]);
-    ewa_context_destroy(&context);
 }
 
 static ewa_coloring by(const char *word) {
@@ -199,22 +197,21 @@ TEST(test_together) {
 /// Colours a cloud of four points by a number of its own.
 static void color_numbers(ewa_context *context, const char *name, const double given[4], ewa_coloring *coloring, ewa_legend *legend) {
     void *data;
-    ewa_cloud *cloud = check_cloud_of(context, 4);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 4);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     memset(data, 0, 4 * 3 * sizeof(double));
     assert_int_equal(ewa_cloud_add(cloud, name, EWA_F64, 1, &data), EWA_OK);
     memcpy(data, given, 4 * sizeof(double));
     snprintf(coloring->attribute, sizeof coloring->attribute, "%s", name);
     assert_int_equal(ewa_clouds_color(&cloud, 1, coloring, legend), EWA_OK);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Numbers that are whole and few have rows in the legend, in the colours that the points have; others have a bar.
 TEST(whole_numbers_have_rows) {
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     WITH_DEFAULTS(ewa_coloring, coloring);
-    ewa_legend legend;
+    OWNED(ewa_legend_free) ewa_legend legend;
     color_numbers(context, "return_number", (double[]){5, 1, -2, 1}, &coloring, &legend);
     assert_false(legend.classes);
     assert_int_equal(legend.category_count, 3);
@@ -246,15 +243,13 @@ TEST(whole_numbers_have_rows) {
     coloring.ranged = true, coloring.range[1] = 9;
     color_numbers(context, "return_number", (double[]){1, 2, 3, 4}, &coloring, &legend);
     assert_int_equal(legend.category_count, 0);
-    ewa_legend_free(&legend);
-    ewa_context_destroy(&context);
 }
 
 /// A blended picture of some Gaussians, coloured; `range`, of a legend, NULL: there is to be none.
 static void draw_gaussians(const ewa_gaussians *set, const ewa_coloring *coloring, uint8_t rgba8[4 * 64 * 64], double range[2]) {
-    ewa_asset *asset = NULL;
-    ewa_scene *scene = NULL;
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     ewa_camera camera;
     WITH_DEFAULTS(ewa_instance, instance);
     if (coloring) instance.coloring = *coloring;
@@ -270,9 +265,6 @@ static void draw_gaussians(const ewa_gaussians *set, const ewa_coloring *colorin
     const ewa_legend *legend = ewa_scene_legend(scene, 0);
     assert_true((legend != NULL) == (range != NULL));
     if (range) memcpy(range, legend->range, sizeof legend->range);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
-    ewa_asset_release(&asset);
 }
 
 /// Coloured by a number, Gaussians are as those of these colours without harmonics, and as opaque as they were.
@@ -280,7 +272,7 @@ TEST_ON(gaussians_by_numbers, 2) {
     enum { COUNT = 40 };
     static uint8_t colored[4 * 64 * 64], plain[4 * 64 * 64];
     check_random random = {5};
-    ewa_gaussians set;
+    OWNED(ewa_gaussians_free) ewa_gaussians set;
     assert_int_equal(ewa_gaussians_create(context, COUNT, 1, &set), EWA_OK);
     for (size_t i = 0; i < COUNT; i++) {
         for (size_t k = 0; k < 3; k++) {
@@ -303,7 +295,7 @@ TEST_ON(gaussians_by_numbers, 2) {
             numbers[i] = n == 0 ? (double)set.opacities[i] : n == 1 ? (double)fmaxf(s[0], fmaxf(s[1], s[2])) : (double)set.centers[3 * i + 2];
             low = fmin(low, numbers[i]), high = fmax(high, numbers[i]);
         }
-        ewa_gaussians same_colors;
+        OWNED(ewa_gaussians_free) ewa_gaussians same_colors;
         assert_int_equal(ewa_gaussians_create(context, COUNT, 0, &same_colors), EWA_OK);
         memcpy(same_colors.centers, set.centers, 3 * COUNT * sizeof(float));
         memcpy(same_colors.scales, set.scales, 3 * COUNT * sizeof(float));
@@ -333,9 +325,7 @@ TEST_ON(gaussians_by_numbers, 2) {
         print_message("gaussians by %s: %zu of %zu bytes apart by 1\n", n != 3 ? words[n] : "tint", apart, seen);
         assert_true(seen > 2000 && apart < seen / 50);
         if (n < 3) assert_true(fabs(range[0] - low) < 1e-6 && fabs(range[1] - high) < 1e-6);
-        ewa_gaussians_free(&same_colors);
     }
-    ewa_gaussians_free(&set);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

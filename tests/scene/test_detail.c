@@ -24,7 +24,7 @@ typedef struct film {
 
 static film make_film(ewa_context *context, far_kind kind, uint64_t point_count) {
     film made = {.context = context};
-    ewa_asset *asset;
+    OWNED(ewa_asset_release) ewa_asset *asset;
     assert_int_equal(far_make(context, kind, point_count, &made.cloud), EWA_OK);
     assert_int_equal(ewa_surfels_create(made.cloud, NULL, &made.surfels), EWA_OK);
     assert_int_equal(ewa_cloud_measure(made.cloud, &made.bounds), EWA_OK);
@@ -32,7 +32,6 @@ static film make_film(ewa_context *context, far_kind kind, uint64_t point_count)
     assert_int_equal(ewa_asset_create(context, &source, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &made.scene), EWA_OK);
     assert_int_equal(ewa_scene_add(made.scene, asset, NULL), EWA_OK);
-    ewa_asset_release(&asset);
     return made;
 }
 
@@ -51,11 +50,10 @@ static ewa_scene_renderer *make_renderer(ewa_context *context) {
 /// Draws a frame from so many times the distance at which all is in the picture; returns the level that was drawn. `renderer` NULL: of
 /// a renderer that draws nothing else.
 static uint32_t draw(const film *of, ewa_scene_renderer *renderer, double times, const ewa_scene_options *options, uint8_t *rgba8) {
-    ewa_scene_renderer *own = renderer ? NULL : make_renderer(of->context);
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *own = renderer ? NULL : make_renderer(of->context);
     const ewa_camera camera = far_camera(&of->bounds, times, SIDE_PX, 1);
     ewa_scene_stats stats;
     assert_int_equal(ewa_scene_draw(of->scene, renderer ? renderer : own, &camera, options, &(ewa_frame){.rgba8 = rgba8}, &stats), EWA_OK);
-    ewa_scene_renderer_destroy(&own);
     return stats.render.level;
 }
 
@@ -136,12 +134,11 @@ TEST(test_levels_depend_on_no_machine) {
     (void)state;
     uint8_t *const pictures[] = {some, again};
     for (uint32_t i = 0; i < 2; i++) {
-        ewa_context *context = check_context_of(i ? 3 : 1, i ? 0 : EWA_CPU_ALL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(i ? 3 : 1, i ? 0 : EWA_CPU_ALL);
         film of = make_film(context, FAR_TERRAIN, POINTS);
         const ewa_scene_options many = options_of(true);
         assert_true(draw(&of, NULL, 16, &many, pictures[i]) > 0);
         end_film(&of);
-        ewa_context_destroy(&context);
     }
     assert_memory_equal(some, again, BYTES);
 }

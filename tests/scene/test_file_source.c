@@ -51,10 +51,9 @@ static int64_t read_far(void *user, uint64_t at_bytes, void *bytes, size_t size_
 }
 
 static void close_far(void *user) {
-    far_file *f = user;
+    OWNED(check_free) far_file *f = user;
     f->place->closed_count++;
     fclose(f->file);
-    free(f);
 }
 
 static bool open_far(void *user, const char *path, ewa_file_source *source) {
@@ -102,10 +101,9 @@ static const char *far_path(const char *name, char path[512]) {
 /// Saves points, and the octree with levels that they make.
 static void make_octree(uint64_t count, const char *name) {
     static const char *const names[] = {points};
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     lod_save(lod_ground(context, 0, count, (lod_look){true, true}), points);
     assert_int_equal(lod_build(context, names, 1, name, NULL, NULL), EWA_OK);
-    ewa_context_destroy(&context);
 }
 
 static int enter(void **state) {
@@ -139,7 +137,7 @@ static ewa_status draw(ewa_context *context, ewa_scene *scene, double zoom, uint
     WITH_DEFAULTS(ewa_view_options, view);
     view.width_px = WIDTH, view.height_px = HEIGHT;
     ewa_camera camera;
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     EWA_TRY(ewa_scene_place_camera(scene, &view, &camera, NULL));
     camera.fx_px *= zoom, camera.fy_px *= zoom;
     EWA_TRY(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer));
@@ -147,7 +145,6 @@ static ewa_status draw(ewa_context *context, ewa_scene *scene, double zoom, uint
     ewa_scene_get_options(scene, &options);
     options.render.supersampling = 1; // by nodes as fine as pixels
     const ewa_status status = ewa_scene_draw(scene, renderer, &camera, &options, &(ewa_frame){.rgba8 = rgba8}, NULL);
-    ewa_scene_renderer_destroy(&renderer);
     return status;
 }
 
@@ -223,13 +220,12 @@ TEST(test_named_files) {
         options.message = check_log_keep, options.message_user = &log;
         options.open_file = open_far, options.open_file_user = &place;
         options.named_files = none ? EWA_NAMED_NONE : EWA_NAMED_BELOW;
-        ewa_context *context = NULL;
+        OWNED(ewa_context_destroy) ewa_context *context = NULL;
         ewa_scene *scene;
         assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
         assert_int_not_equal(load(context, far_path(none ? "grid.nhdr" : "out.nhdr", path), EWA_OCTREE_AUTO, &scene), EWA_OK);
         assert_non_null(strstr(log.text, none ? "named_files none" : "not there"));
         assert_false(place.others);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -237,7 +233,7 @@ TEST(test_named_files) {
 static ewa_status try_far(const char *name, far_place *place, check_log *log) {
     char path[512];
     check_memory memory = {.calls_left = -1};
-    ewa_context *context = far_context(place, log, &memory);
+    OWNED(ewa_context_destroy) ewa_context *context = far_context(place, log, &memory);
     const int64_t before = memory.held_bytes;
     ewa_scene *scene;
     ewa_status status = load(context, far_path(name, path), EWA_OCTREE_ALWAYS, &scene);
@@ -245,7 +241,6 @@ static ewa_status try_far(const char *name, far_place *place, check_log *log) {
     ewa_scene_destroy(&scene);
     assert_int_equal(place->opened_count, place->closed_count);
     assert_int_equal(memory.held_bytes, before);
-    ewa_context_destroy(&context);
     return status;
 }
 
@@ -300,12 +295,11 @@ TEST(test_no_reader) {
     WITH_DEFAULTS(ewa_context_options, options);
     options.message = check_log_keep, options.message_user = &log;
     options.open_file = open_without_reader;
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     ewa_cloud *cloud;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     assert_int_equal(ewa_cloud_load(context, "any.ply", &cloud), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "any.ply"));
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -45,10 +45,9 @@ static ewa_cloud *make_ramp(const double at_world[3]) {
 
 /// Adds a cloud to a scene, which needs it no longer.
 static void add(ewa_scene *scene, ewa_cloud **cloud, const ewa_asset_options *options, const ewa_instance *instance) {
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = *cloud}, options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, instance), EWA_OK);
-    ewa_asset_release(&asset);
 }
 
 static ewa_scene *make_scene(void) {
@@ -80,10 +79,10 @@ TEST(test_ramp) {
     static const double places[][3] = {{0, 0, 0}, {500000.25, -4200000.5, 100}};
     for (int k = 0; k < 2; k++) {
         const double *at = places[k], line[2][3] = {{at[0], at[1], 0}, {at[0] + 10, at[1], 0}};
-        ewa_scene *scene = make_scene();
-        ewa_cloud *cloud = make_ramp(at);
+        OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp(at);
         add(scene, &cloud, NULL, NULL);
-        ewa_profile profile = take(scene, line[0], 2, 1);
+        OWNED(ewa_profile_free) ewa_profile profile = take(scene, line[0], 2, 1);
         assert_int_equal(ewa_cloud_point_count(profile.points), SIDE * 5);
         assert_true(profile.length_world == 10);
         const double *stations = numbers_of(&profile, "station"), *offsets = numbers_of(&profile, "offset"),
@@ -97,9 +96,6 @@ TEST(test_ramp) {
             ewa_attribute_read_f64(ewa_cloud_find(profile.points, "number"), i, 1, &number);
             assert_true(number == stations[i] / STEP + SIDE * (5 - offsets[i]) / STEP);
         }
-        ewa_profile_free(&profile);
-        ewa_scene_destroy(&scene);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -107,10 +103,10 @@ TEST(test_ramp) {
 TEST(test_oblique) {
     (void)state;
     static const double line[2][3] = {{0, 0, 7}, {6, 8, -7}};
-    ewa_scene *scene = make_scene();
-    ewa_cloud *cloud = make_ramp((double[3]){0});
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp((double[3]){0});
     add(scene, &cloud, NULL, NULL);
-    ewa_profile profile = take(scene, line[0], 2, 2);
+    OWNED(ewa_profile_free) ewa_profile profile = take(scene, line[0], 2, 2);
     assert_true(profile.length_world == 10);
     uint64_t wanted = 0;
     for (int i = 0; i < POINTS; i++) {
@@ -129,19 +125,16 @@ TEST(test_oblique) {
         assert_true(fabs(offsets[i] - (4 * p[0] - 3 * p[1]) / 5) < 1e-12);
         assert_true(i == 0 || stations[i - 1] <= stations[i]);
     }
-    ewa_profile_free(&profile);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Around a right bend stations go on: (5, 0) is at 5, (5, 3) at 8.
 TEST(test_bend) {
     (void)state;
     static const double line[3][3] = {{0, 0, 0}, {5, 0, 0}, {5, 4, 0}};
-    ewa_scene *scene = make_scene();
-    ewa_cloud *cloud = make_ramp((double[3]){0});
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp((double[3]){0});
     add(scene, &cloud, NULL, NULL);
-    ewa_profile profile = take(scene, line[0], 3, 0.25);
+    OWNED(ewa_profile_free) ewa_profile profile = take(scene, line[0], 3, 0.25);
     assert_true(profile.length_world == 9);
     // On the line alone: 21 points of the first piece and 16 more of the second.
     assert_int_equal(ewa_cloud_point_count(profile.points), 37);
@@ -150,9 +143,6 @@ TEST(test_bend) {
         assert_true(stations[i] == STEP * (double)i);
         assert_true(heights[i] == 3 + 0.5 * fmin(stations[i], 5));
     }
-    ewa_profile_free(&profile);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// What is hidden, and what sections cut away, is in no profile; two scans are, in either order.
@@ -194,13 +184,13 @@ TEST(test_what_is_shown) {
 TEST(test_y_up) {
     (void)state;
     static const double line[2][3] = {{0, 0, 0}, {10, 0, 0}};
-    ewa_scene *scene = make_scene();
-    ewa_cloud *cloud = make_ramp((double[3]){0});
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp((double[3]){0});
     WITH_DEFAULTS(ewa_asset_options, options);
     const double turn[16] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
     memcpy(options.to_world, turn, sizeof turn);
     add(scene, &cloud, &options, NULL);
-    ewa_profile profile;
+    OWNED(ewa_profile_free) ewa_profile profile;
     WITH_DEFAULTS(ewa_profile_options, own);
     own.up_world[1] = 2; // any length
     assert_int_equal(ewa_scene_profile(scene, line[0], 2, &own, &profile), EWA_OK);
@@ -212,29 +202,23 @@ TEST(test_y_up) {
         assert_true(heights[i] == 3 + 0.5 * stations[i]);
         assert_true(offsets[i] == STEP * ((double)(i % 5) - 2)); // right is +z, where -y was
     }
-    ewa_profile_free(&profile);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Decimals of a file stay decimals: the grid's step is a hundredth.
 TEST(test_decimals) {
     (void)state;
-    ewa_cloud *cloud = make_ramp((double[3]){849200, 0, 400});
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp((double[3]){849200, 0, 400});
     const ewa_coordinate_grid grid = {{0.01, 0.01, 0.01}, {0}};
     float *places = ewa_cloud_find(cloud, EWA_POSITION)->data;
     for (int i = 0; i < POINTS; i++) places[3 * i] += 0.01F, places[3 * i + 2] += 0.07F;
     ewa_cloud_set_grid(cloud, &grid);
-    ewa_scene *scene = make_scene();
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
     add(scene, &cloud, NULL, NULL);
     const double line[2][3] = {{849200, 0, 0}, {849209.99, 0, 0}};
-    ewa_profile profile = take(scene, line[0], 2, 0.25);
+    OWNED(ewa_profile_free) ewa_profile profile = take(scene, line[0], 2, 0.25);
     const double *stations = numbers_of(&profile, "station"), *heights = numbers_of(&profile, "profile_height");
     assert_true(ewa_cloud_point_count(profile.points) == SIDE - 1);
     assert_true(stations[1] == 0.26 && stations[2] == 0.51 && heights[2] == 403.32);
-    ewa_profile_free(&profile);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Colours are those of the scene: by height from the lowest to the highest point of all; one colour; none.
@@ -245,14 +229,14 @@ TEST(test_colors) {
     ewa_colormap_color(EWA_COLORMAP_TURBO, 0, ends[0]);
     ewa_colormap_color(EWA_COLORMAP_TURBO, 1, ends[1]);
     for (int committed = 0; committed < 2; committed++) {
-        ewa_scene *scene = make_scene();
-        ewa_cloud *cloud = make_ramp((double[3]){0});
+        OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp((double[3]){0});
         WITH_DEFAULTS(ewa_instance, instance);
         strcpy(instance.coloring.attribute, "z");
         instance.coloring.map = EWA_COLORING_TURBO;
         add(scene, &cloud, NULL, &instance);
         if (committed) assert_int_equal(ewa_scene_commit(scene), EWA_OK);
-        ewa_profile profile = take(scene, line[0], 2, 0.25);
+        OWNED(ewa_profile_free) ewa_profile profile = take(scene, line[0], 2, 0.25);
         assert_memory_equal(profile.srgb, ends[0], 3);
         assert_memory_equal(profile.srgb + 3 * (SIDE - 1), ends[1], 3);
         ewa_profile_free(&profile);
@@ -267,9 +251,6 @@ TEST(test_colors) {
         assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_OK);
         profile = take(scene, line[0], 2, 0.25);
         assert_memory_equal(profile.srgb + 3 * 7, ((uint8_t[3]){96, 96, 96}), 3);
-        ewa_profile_free(&profile);
-        ewa_scene_destroy(&scene);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -291,14 +272,14 @@ static double red_middle(const uint8_t *rgba8, int low_x, int high_x, double mid
 TEST(test_graph) {
     (void)state;
     static const double line[2][3] = {{-0.125, 0, 0}, {10.125, 0, 0}};
-    ewa_scene *scene = make_scene();
-    ewa_cloud *cloud = make_ramp((double[3]){0});
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_ramp((double[3]){0});
     WITH_DEFAULTS(ewa_instance, instance);
     instance.coloring.tinted = true;
     instance.coloring.tint[0] = 1;
     add(scene, &cloud, NULL, &instance);
-    ewa_profile profile = take(scene, line[0], 2, 0.25);
-    uint8_t *rgba8 = malloc(4 * WIDTH * HEIGHT), *again = malloc(4 * WIDTH * HEIGHT);
+    OWNED(ewa_profile_free) ewa_profile profile = take(scene, line[0], 2, 0.25);
+    OWNED(check_free) uint8_t *rgba8 = malloc(4 * WIDTH * HEIGHT), *again = malloc(4 * WIDTH * HEIGHT);
     const ewa_canvas canvas = {rgba8, WIDTH, HEIGHT}, other = {again, WIDTH, HEIGHT};
     static const double times[] = {0.25, 1, 1.5, 4};
     for (int k = 0; k < 4; k++) {
@@ -329,11 +310,6 @@ TEST(test_graph) {
     profile = take(scene, (double[6]){100, 0, 0, 101, 0, 0}, 2, 1);
     assert_int_equal(ewa_cloud_point_count(profile.points), 0);
     assert_int_equal(ewa_profile_draw(&profile, NULL, &canvas), EWA_OK);
-    ewa_profile_free(&profile);
-    free(rgba8);
-    free(again);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 TEST(test_refused) {
@@ -347,15 +323,13 @@ TEST(test_refused) {
     static const char *const wrong[] = {"", "1,2", "1,2;", "1;2", "1,2;3,x", "1,2,3,4;5,6", "1,2;;3,4", "nan,1;2,3", "inf,1;2,3"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(ewa_profile_line_read(wrong[i], corners, &count, problem), EWA_ERROR_ARGUMENT);
-    ewa_scene *scene = make_scene();
-    ewa_profile profile;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene();
+    OWNED(ewa_profile_free) ewa_profile profile;
     const double same[2][3] = {{1, 1, 0}, {1, 1, 5}}, wild[2][3] = {{0, 0, 0}, {INFINITY, 0, 0}};
     assert_int_equal(ewa_scene_profile(scene, same[0], 2, NULL, &profile), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_scene_profile(scene, wild[0], 2, NULL, &profile), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_scene_profile(scene, wild[0], 1, NULL, &profile), EWA_ERROR_ARGUMENT);
     assert_null(profile.context);
-    ewa_profile_free(&profile);
-    ewa_scene_destroy(&scene);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

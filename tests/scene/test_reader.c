@@ -29,10 +29,9 @@ static check_log heard;
 static int enter(void **state) {
     static const char *const names[] = {points};
     lod_clear();
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     lod_save(lod_ground(context, 0, POINTS, (lod_look){true, true}), points);
     assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
-    ewa_context_destroy(&context);
     return 0;
 }
 

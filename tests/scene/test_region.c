@@ -52,11 +52,10 @@ static ewa_cloud *make_grid(void) {
 
 static ewa_scene *make_scene(const ewa_cloud *cloud) {
     ewa_scene *scene = NULL;
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-    ewa_asset_release(&asset);
     return scene;
 }
 
@@ -173,18 +172,17 @@ TEST(test_outlines) {
 
 static void draw(ewa_scene *scene, uint8_t *rgba8) {
     const ewa_camera camera = make_camera(false);
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     assert_int_equal(ewa_scene_draw(scene, renderer, &camera, NULL, &(ewa_frame){.rgba8 = rgba8}, NULL), EWA_OK);
-    ewa_scene_renderer_destroy(&renderer);
 }
 
 /// A picture of a scene of which points are hidden is that of the points that are left; shown again, that of all.
 TEST(test_pictures) {
     (void)state;
     static uint8_t all[4 * WIDTH * HEIGHT], hidden[4 * WIDTH * HEIGHT], other[4 * WIDTH * HEIGHT];
-    ewa_cloud *cloud = make_grid(), *left = NULL;
-    ewa_scene *scene = make_scene(cloud);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_grid(), *left = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(cloud);
     draw(scene, all);
     const ewa_region box = {.has_box = true, .box_world = {4, 4, -1, 12, 9, 1}};
     set_regions(scene, &box, 1);
@@ -192,7 +190,7 @@ TEST(test_pictures) {
     assert_memory_not_equal(all, hidden, sizeof all);
     assert_int_equal(ewa_scene_points(scene, &left), EWA_OK);
     assert_int_equal(ewa_cloud_attribute_count(left), ewa_cloud_attribute_count(cloud));
-    ewa_scene *of_left = make_scene(left);
+    OWNED(ewa_scene_destroy) ewa_scene *of_left = make_scene(left);
     draw(of_left, other);
     assert_memory_equal(hidden, other, sizeof hidden);
     // What is hidden is not picked.
@@ -213,10 +211,6 @@ TEST(test_pictures) {
     set_regions(scene, &nothing, 1);
     draw(scene, other);
     for (size_t i = 0; i < sizeof other; i++) assert_int_equal(other[i], 255);
-    ewa_scene_destroy(&of_left);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&left);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Octrees hide the same points, and scene files keep regions to the bit.
@@ -237,7 +231,7 @@ TEST(test_files) {
         ewa_asset *asset = NULL;
         WITH_DEFAULTS(ewa_asset_options, options);
         options.levels = EWA_OCTREE_ALWAYS;
-        ewa_scene *scene = NULL, *again = NULL;
+        OWNED(ewa_scene_destroy) ewa_scene *scene = NULL, *again = NULL;
         assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
         assert_int_equal(ewa_asset_load(context, k ? "region.copc.laz" : path, &options, &asset), EWA_OK);
         assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
@@ -254,16 +248,13 @@ TEST(test_files) {
         assert_int_equal(read.region_count, 2);
         assert_memory_equal(read.regions, regions, sizeof regions);
         // What was there before and is counted no longer leaves no trace in what a file says.
-        ewa_scene_file *saved = NULL;
+        OWNED(ewa_scene_file_destroy) ewa_scene_file *saved = NULL;
         for (int i = 0; i < 2; i++) read.regions[i] = (ewa_region){.kept = true, .has_classes = true, .classes = {~0u}};
         read.region_count = 0;
         assert_int_equal(ewa_scene_file_load(context, "region.json", NULL, &saved), EWA_OK);
         ewa_scene_file_apply(saved, &read);
         assert_int_equal(read.region_count, 2);
         assert_memory_equal(read.regions, regions, sizeof regions);
-        ewa_scene_file_destroy(&saved);
-        ewa_scene_destroy(&again);
-        ewa_scene_destroy(&scene);
     }
     static const char *const wrong[] = {"{\"keep\": 1}",           "{\"box\": [1, 2, 3]}",  "{\"classes\": [256]}",
                                         "{\"outline\": [1, 2, 3, 4]}", "{\"classes\": [0.5]}", "{\"volume\": 3}",
@@ -296,14 +287,13 @@ static void draw_file(ewa_scene *scene, uint8_t *rgba8) {
 }
 
 static ewa_scene *open_file(const char *path, const char *transfer) {
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     ewa_scene *scene = NULL;
     WITH_DEFAULTS(ewa_asset_options, options);
     options.transfer = transfer;
     assert_int_equal(ewa_asset_load(context, path, &options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-    ewa_asset_release(&asset);
     return scene;
 }
 
@@ -348,7 +338,7 @@ TEST(test_gaussians) {
     ewa_gaussians_free(&set);
     assert_int_equal(ewa_gaussians_save(&left, "region_left.ply", NULL), EWA_OK);
     ewa_gaussians_free(&left);
-    ewa_scene *of_left = open_file("region_left.ply", NULL), *copy = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *of_left = open_file("region_left.ply", NULL), *copy = NULL;
     draw_file(of_left, other);
     assert_memory_equal(hidden, other, sizeof hidden);
     // A copy shares what is left, and outlives the scene that it was made of.
@@ -388,8 +378,6 @@ TEST(test_gaussians) {
     ewa_gaussians_free(&left);
     ewa_volume volume;
     assert_int_equal(ewa_scene_volume(copy, &volume), EWA_ERROR_ARGUMENT);
-    ewa_scene_destroy(&of_left);
-    ewa_scene_destroy(&copy);
 }
 
 /// A volume of 20 x 12 x 8 voxels: what is left is the grid around it, on its place, with every number; what is hidden within has one
@@ -405,7 +393,7 @@ TEST(test_volumes) {
     fclose(file);
     const uint32_t dims[3] = {20, 12, 8};
     for (int k = 0; k < 2; k++) {
-        ewa_volume volume, left;
+        OWNED(ewa_volume_free) ewa_volume volume, left;
         assert_int_equal(ewa_volume_create(context, dims, k ? EWA_F32 : EWA_U8, &volume), EWA_OK);
         for (uint32_t i = 0; i < 20 * 12 * 8; i++) {
             const uint8_t value = (uint8_t)(20 + i % 70);
@@ -416,7 +404,7 @@ TEST(test_volumes) {
         }
         for (int c = 0; c < 3; c++) volume.index_to_world[4 * c + 3] = 0;
         assert_int_equal(ewa_volume_save(&volume, "region_volume.nrrd", NULL), EWA_OK);
-        ewa_scene *scene = open_file("region_volume.nrrd", transfer);
+        OWNED(ewa_scene_destroy) ewa_scene *scene = open_file("region_volume.nrrd", transfer);
         static ewa_scene_options options;
         ewa_scene_get_options(scene, &options);
         options.shade_volumes = false; // by gradients, which what is beyond a border is part of
@@ -443,7 +431,7 @@ TEST(test_volumes) {
                 assert_true(value > 90);
         }
         assert_int_equal(ewa_volume_save(&left, "region_part.nrrd", NULL), EWA_OK);
-        ewa_scene *of_left = open_file("region_part.nrrd", transfer);
+        OWNED(ewa_scene_destroy) ewa_scene *of_left = open_file("region_part.nrrd", transfer);
         assert_int_equal(ewa_scene_set_options(of_left, &options), EWA_OK);
         draw_file(of_left, other);
         // Places are told from another voxel: what floats round differently is a step.
@@ -462,10 +450,6 @@ TEST(test_volumes) {
         set_regions(scene, NULL, 0);
         draw_file(scene, other);
         assert_memory_equal(all, other, sizeof all);
-        ewa_scene_destroy(&of_left);
-        ewa_scene_destroy(&scene);
-        ewa_volume_free(&left);
-        ewa_volume_free(&volume);
     }
 }
 

@@ -85,8 +85,9 @@ static double largest_difference(const planes *a, const planes *b) {
 /// Tiles and interleaved scans of one place are the picture of the one file. Not to the byte: among neighbours that are
 /// equally far, as on the regular grid of a torus, the numbering of points decides which ones count.
 TEST_ON(test_estimated_together, 0) {
+    OWNED(ewa_cloud_destroy)
     ewa_cloud *object = make_object(context, EWA_OBJECT_TORUS, 0), *whole = bare_part(context, object, all);
-    ewa_scene *one = make_scene(context);
+    OWNED(ewa_scene_destroy) ewa_scene *one = make_scene(context);
     add_cloud(context, one, whole, NULL);
     const ewa_camera camera = place(one);
     draw(context, one, &camera, &first);
@@ -108,14 +109,12 @@ TEST_ON(test_estimated_together, 0) {
         ewa_scene_destroy(&many);
         for (int k = 0; k < 5; k++) ewa_cloud_destroy(&parts[k]);
     }
-    ewa_scene_destroy(&one);
-    ewa_cloud_destroy(&whole), ewa_cloud_destroy(&object);
 }
 
 /// Gaussians out of sight change none of the planes of a surface but where colours are rounded.
 TEST_ON(test_planes_among_gaussians, 0) {
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
-    ewa_scene *scene = make_scene(context);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context);
     add_cloud(context, scene, cloud, NULL);
     const ewa_camera camera = place(scene);
     draw(context, scene, &camera, &first);
@@ -133,8 +132,6 @@ TEST_ON(test_planes_among_gaussians, 0) {
     assert_memory_equal(first.depth, second.depth, sizeof first.depth);
     assert_memory_equal(first.normal, second.normal, sizeof first.normal);
     assert_memory_equal(first.coverage, second.coverage, sizeof first.coverage);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A hidden instance is not drawn, a tint is one colour, and a copy goes its own way.
@@ -202,17 +199,15 @@ TEST_ON(test_one_range, 0) {
     ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
 }
 
-TEST(test_refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
-    ewa_scene *scene = make_scene(context);
+TEST_LOGGED(test_refused, 1) {
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context);
     WITH_DEFAULTS(ewa_asset_options, options);
     ewa_asset *asset = NULL;
     options.to_world[0] = 0;
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset),
                      EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "determinant"));
+    assert_non_null(strstr(log->text, "determinant"));
     options.to_world[0] = NAN;
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset),
                      EWA_ERROR_ARGUMENT);
@@ -220,7 +215,7 @@ TEST(test_refused) {
                      EWA_ERROR_ARGUMENT);
     assert_null(asset);
     assert_int_equal(ewa_asset_load(context, "/nowhere/there.ply", NULL, &asset), EWA_ERROR_IO);
-    assert_non_null(strstr(log.text, "/nowhere/there.ply"));
+    assert_non_null(strstr(log->text, "/nowhere/there.ply"));
     add_cloud(context, scene, cloud, NULL);
     WITH_DEFAULTS(ewa_instance, instance);
     instance.opacity = 2;
@@ -229,21 +224,17 @@ TEST(test_refused) {
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "nothing");
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_OK);
     assert_int_equal(ewa_scene_commit(scene), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "points: there is no attribute 'nothing'"));
+    assert_non_null(strstr(log->text, "points: there is no attribute 'nothing'"));
     instance.coloring.ranged = instance.coloring.percent[1] = true;
     instance.coloring.range[1] = 101;
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "101 is no percentile"));
+    assert_non_null(strstr(log->text, "101 is no percentile"));
     memset(instance.coloring.attribute, 'a', sizeof instance.coloring.attribute);
     instance.coloring.ranged = false;
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "attribute: a name has at most"));
+    assert_non_null(strstr(log->text, "attribute: a name has at most"));
     assert_int_equal(ewa_scene_remove(scene, 1), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_scene_remove(scene, 0), EWA_OK);
-    ewa_scene_destroy(&scene);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// What was made for an asset that is gone is not taken for another one, which may lie in the same place of memory.
@@ -268,7 +259,7 @@ TEST_ON(test_another_asset, 1) {
 TEST(test_chain_of_tiles) {
     enum { TILES = 1000, OF_TILE = 4 };
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     ewa_scene *scene = make_scene(context);
     static double places[TILES][OF_TILE][3];
     ewa_cloud *clouds[TILES];
@@ -290,18 +281,15 @@ TEST(test_chain_of_tiles) {
     ewa_cloud_destroy(&whole);
     ewa_scene_destroy(&scene);
     for (int t = 0; t < TILES; t++) ewa_cloud_destroy(&clouds[t]);
-    ewa_context_destroy(&context);
 }
 
 /// The cloud of a scene is what its surfels are made of: their picture is the scene's.
-TEST(test_cloud_of_scene) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_cloud_of_scene, 1) {
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 1.25)};
     ewa_scene *scene = make_scene(context), *of_cloud = make_scene(context);
-    ewa_cloud *whole = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *whole = NULL;
     assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "shows no points"));
+    assert_non_null(strstr(log->text, "shows no points"));
     for (int i = 0; i < 2; i++) {
         WITH_DEFAULTS(ewa_instance, instance);
         instance.radius_scale = 1 + i;
@@ -318,8 +306,6 @@ TEST(test_cloud_of_scene) {
     draw(context, of_cloud, &camera, &second);
     assert_memory_equal(&first, &second, sizeof first);
     ewa_scene_destroy(&of_cloud);
-    ewa_cloud_destroy(&whole);
-    ewa_context_destroy(&context);
 }
 
 /// Who puts things of different coordinates together is told.
@@ -327,7 +313,7 @@ TEST(test_far_apart) {
     const double shifts_world[2] = {900, 4e6};
     for (int i = 0; i < 2; i++) {
         check_log log = {.count = 0};
-        ewa_context *context = check_context(1, &log);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
         ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                                 make_object(context, EWA_OBJECT_SPHERE, shifts_world[i])};
         ewa_scene *scene = make_scene(context);
@@ -336,17 +322,16 @@ TEST(test_far_apart) {
         assert_int_equal(strstr(log.text, "of one system?") != NULL, i);
         ewa_scene_destroy(&scene);
         for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
-        ewa_context_destroy(&context);
     }
 }
 
 /// Picks find the point that is nearest to what is seen, and sections hide points.
 TEST_ON(test_pick, 1) {
-    ewa_cloud *cloud = NULL;
-    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
     ewa_camera camera = place(scene);
     camera.world_to_camera[3] += 0.2; // off the middle
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     ewa_scene_hit hit;
     assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, WIDTH / 2, HEIGHT / 2, 2, 0.2, &hit),
@@ -369,19 +354,16 @@ TEST_ON(test_pick, 1) {
                                   eye_world[2] * eye_world[2]));
     assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, 1, 1, 1, 0.2, &hit), EWA_OK);
     assert_false(hit.hit);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// From wherever a sphere is seen, what is picked lies on it, behind the pixel that was asked for.
 TEST_ON(test_pick_aslant, 1) {
-    ewa_cloud *cloud = NULL;
-    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
     ewa_camera camera = place(scene);
     const double eye[3] = {3, 2, 4}, target[3] = {0.1, 0, 0}, up[3] = {0.2, 1, 0};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     const double x_px = WIDTH / 2 + 5, y_px = HEIGHT / 2 - 7;
     ewa_scene_hit hit;
@@ -393,9 +375,6 @@ TEST_ON(test_pick_aslant, 1) {
     assert_true(fabs(camera.fx_px * seen[0] / seen[2] + camera.cx_px - x_px) < 1e-6);
     assert_true(fabs(camera.fy_px * seen[1] / seen[2] + camera.cy_px - y_px) < 1e-6);
     assert_true(fabs(sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) - 1) < 0.02);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Few points are dots of 0.004 of the scene's size; those that have radii keep them.
@@ -425,22 +404,20 @@ TEST_ON(test_dots, 1) {
 /// Small radii of points on no surface, as of lines, are kept; those of a surface would leave gaps.
 TEST_ON(test_no_surface_has_no_gaps, 1) {
     for (int surface = 0; surface < 2; surface++) {
-        ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
         void *radius, *surfaceness;
         ewa_cloud_remove(cloud, EWA_CURVATURE);
         assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
         assert_int_equal(ewa_cloud_add(cloud, EWA_SURFACENESS, EWA_F32, 1, &surfaceness), EWA_OK);
         for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++)
             ((float *)radius)[i] = 0.003f, ((float *)surfaceness)[i] = (float)surface;
-        ewa_scene *scene = make_scene(context);
+        OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context);
         add_cloud(context, scene, cloud, NULL);
         const ewa_camera camera = place(scene);
         draw(context, scene, &camera, &first);
         int covered = 0;
         for (int i = 0; i < PIXELS; i++) covered += first.coverage[i] >= 0.5f;
         assert_true(surface ? covered > 0.3 * PIXELS : covered < 0.2 * PIXELS);
-        ewa_scene_destroy(&scene);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -455,7 +432,7 @@ static double first_radius(bool curve, bool backwards) {
         const double helix[3] = {cos(t), sin(t), 0.1 * t};
         for (int c = 0; c < 3; c++) places[i][c] = curve ? helix[c] : check_uniform(&random, 0, 1);
     }
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = NULL, *whole = NULL;
     assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, places, sizeof places[0]), EWA_OK);
@@ -469,7 +446,6 @@ static double first_radius(bool curve, bool backwards) {
     ewa_cloud_destroy(&whole);
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
     return radius / sqrt(size2);
 }
 
@@ -483,8 +459,8 @@ TEST(test_curve) {
 
 /// What is asked to be up is up, along any axis.
 TEST_ON(test_asked_up, 1) {
-    ewa_cloud *cloud = NULL;
-    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_TORUS, &cloud);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene_of(context, EWA_OBJECT_TORUS, &cloud);
     for (int axis = 0; axis < 3; axis++) {
         WITH_DEFAULTS(ewa_view_options, options);
         options.up_world[axis] = axis == 1 ? -2 : 3;
@@ -493,8 +469,6 @@ TEST_ON(test_asked_up, 1) {
         assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, &info), EWA_OK);
         for (int c = 0; c < 3; c++) assert_true(info.up_world[c] == (c != axis ? 0 : axis == 1 ? -1 : 1));
     }
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Small coordinates far from the origin whose heights stand out are degrees, unless no degrees are so many.
@@ -511,17 +485,16 @@ TEST_ON(test_degrees, 1) {
             places[i][2] = cases[k].z + 20 * (i >> 2);
         }
         char text[EWA_DIAGNOSIS_TEXT_BYTES];
-        ewa_cloud *cloud = check_cloud_of(context, 8);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 8);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, places, sizeof places[0]), EWA_OK);
         assert_int_equal(ewa_cloud_find_degrees(cloud, text), cases[k].degrees);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// A description has the options that are no defaults, and all that is there.
 TEST_ON(test_described, 1) {
-    ewa_cloud *cloud = NULL;
-    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_PLANE, &cloud);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene_of(context, EWA_OBJECT_PLANE, &cloud);
     ewa_scene_options options;
     ewa_scene_get_options(scene, &options);
     options.up = EWA_UP_Z;
@@ -532,8 +505,6 @@ TEST_ON(test_described, 1) {
     assert_non_null(strstr(text, "\"count\":\t6000"));
     ewa_text_free(&text);
     assert_null(text);
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

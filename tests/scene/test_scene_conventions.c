@@ -13,30 +13,25 @@
 
 /// What is said of lengths by a scene of a bare cloud, moved by a map, with a reference system.
 static const char *unit_of(ewa_context *context, const char *crs, const char *note, double scale) {
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     if (crs) assert_int_equal(ewa_cloud_set_note(cloud, "crs", crs, strlen(crs)), EWA_OK);
     if (note) assert_int_equal(ewa_cloud_set_note(cloud, "crs_unit", note, strlen(note)), EWA_OK);
     WITH_DEFAULTS(ewa_asset_options, options);
     // Turned by a quarter, and as large as the scale says.
     const double to_world[16] = {0, -scale, 0, 500, scale, 0, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1};
     memcpy(options.to_world, to_world, sizeof to_world);
-    ewa_asset *asset = NULL;
-    ewa_scene *scene = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     ewa_scene_info info;
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
     ewa_scene_describe(scene, &info);
-    ewa_scene_destroy(&scene);
-    ewa_asset_release(&asset);
-    ewa_cloud_destroy(&cloud);
     return info.unit ? info.unit : "none";
 }
 
 /// Two systems of coordinates in one scene are told with both names, and drawn as they are.
-TEST(test_two_systems) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_two_systems, 1) {
     ewa_scene *scene = make_scene(context);
     static const char *const systems[] = {NULL, PROJECTED(METRE), PROJECTED(METRE), PROJECTED(FOOT)};
     ewa_cloud *clouds[4];
@@ -49,13 +44,12 @@ TEST(test_two_systems) {
         assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
         ewa_asset_release(&asset);
         assert_int_equal(ewa_scene_complete(scene), EWA_OK);
-        assert_int_equal(log.count, i == 3);
+        assert_int_equal(log->count, i == 3);
     }
-    assert_ptr_equal(strstr(log.text, "other: its coordinate reference system (PROJCS"), log.text);
-    assert_non_null(strstr(log.text, "is not that of one (PROJCS"));
+    assert_ptr_equal(strstr(log->text, "other: its coordinate reference system (PROJCS"), log->text);
+    assert_non_null(strstr(log->text, "is not that of one (PROJCS"));
     ewa_scene_destroy(&scene);
     for (int i = 0; i < 4; i++) ewa_cloud_destroy(&clouds[i]);
-    ewa_context_destroy(&context);
 }
 
 /// A sphere on a foot along an axis, 1 y, 2 z, with normals.
@@ -83,18 +77,17 @@ TEST(test_two_ups) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         check_log log = {.count = 0};
-        ewa_context *context = check_context(1, &log);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
         ewa_scene *scene = make_scene(context);
         ewa_cloud *clouds[2];
         for (int k = 0; k < 2; k++) {
             clouds[k] = make_stand(context, rows[i].up[k]);
             WITH_DEFAULTS(ewa_asset_options, options);
             if (k && rows[i].moved) options.to_world[3] = 1;
-            ewa_asset *asset = NULL;
+            OWNED(ewa_asset_release) ewa_asset *asset = NULL;
             const ewa_asset_source source = {.cloud = clouds[k], .name = rows[i].names[k]};
             assert_int_equal(ewa_asset_create(context, &source, &options, &asset), EWA_OK);
             assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-            ewa_asset_release(&asset);
         }
         ewa_camera camera;
         for (int again = 0; again < 2; again++) {
@@ -106,7 +99,6 @@ TEST(test_two_ups) {
         }
         ewa_scene_destroy(&scene);
         for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -138,7 +130,7 @@ TEST(test_units) {
         {"EPSG:1", "none"},
         {"user-defined: PROJCS[", "none"},
     };
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     for (size_t i = 0; i < sizeof systems / sizeof systems[0]; i++)
         assert_string_equal(unit_of(context, systems[i].crs, NULL, 1), systems[i].unit);
@@ -153,7 +145,6 @@ TEST(test_units) {
         const char *unit = unit_of(context, length ? begun : NULL, NULL, 1);
         assert_true(strcmp(unit, "none") == 0 || strcmp(unit, "ft") == 0);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -25,26 +25,23 @@ static char *read_text(const char *path) {
 }
 
 static void save_object(ewa_context *context, ewa_object object, const char *path) {
-    ewa_cloud *cloud = make_object(context, object, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, object, 0);
     assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_OK);
-    ewa_cloud_destroy(&cloud);
 }
 
 static int set_up(void **state) {
     char folder[512];
     assert_int_equal(chdir(scratch_path("", folder)), 0);
-    ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
     mkdir("deep", 0777);
     save_object(context, EWA_OBJECT_TORUS, "torus.ply");
     save_object(context, EWA_OBJECT_SPHERE, "deep/sphere.ply");
     WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = EWA_VOLUME_BALL;
     for (int c = 0; c < 3; c++) options.dims[c] = 16;
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     assert_int_equal(ewa_volume_generate(context, &options, &volume), EWA_OK);
     assert_int_equal(ewa_volume_save(&volume, "deep/ball.nrrd", NULL), EWA_OK);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
     return 0;
 }
 
@@ -78,7 +75,7 @@ static ewa_scene_options make_options(void) {
 }
 
 TEST_ON(test_saved_opens_alike, 0) {
-    ewa_scene *made = NULL, *opened = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *made = NULL, *opened = NULL;
     const ewa_scene_options options = make_options();
     assert_int_equal(ewa_scene_create(context, &options, &made), EWA_OK);
     ewa_asset_options asset;
@@ -129,17 +126,15 @@ TEST_ON(test_saved_opens_alike, 0) {
     char *texts[2] = {read_text("saved.json"), read_text("again.json")};
     assert_string_equal(texts[0], texts[1]);
     free(texts[0]), free(texts[1]);
-    char *told = NULL;
+    OWNED(ewa_text_free) char *told = NULL;
     assert_int_equal(ewa_scene_describe_json(opened, &told), EWA_OK);
     assert_non_null(strstr(told, "\"kind\":\t\"volume\""));
     assert_non_null(strstr(told, "\"high_world\""));
-    ewa_text_free(&told);
-    ewa_scene_destroy(&made), ewa_scene_destroy(&opened);
 }
 
 /// Saves a scene of one file with these options of its asset; the text is the caller's.
 static char *save_asset(ewa_context *context, const char *path, const ewa_asset_options *options) {
-    ewa_scene *scene = NULL, *opened = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL, *opened = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, path, options, NULL);
     const ewa_camera camera = place(scene);
@@ -149,7 +144,6 @@ static char *save_asset(ewa_context *context, const char *path, const ewa_asset_
     draw(context, scene, &camera, &first);
     draw(context, opened, &camera, &second);
     assert_memory_equal(&first, &second, sizeof first);
-    ewa_scene_destroy(&scene), ewa_scene_destroy(&opened);
     return read_text("asset.json");
 }
 
@@ -164,11 +158,10 @@ TEST_ON(test_saved_assets, 0) {
     options.voxel_level_count = 2;
     options.reach_steps = 3;
     for (int i = 0; i < 3; i++) {
-        char *text = save_asset(context, files[i], &options);
+        OWNED(check_free) char *text = save_asset(context, files[i], &options);
         assert_true((strstr(text, "\"cutoff\":\t2") != NULL) == (i == 0));
         assert_true((strstr(text, "\"voxel_level_count\":\t2") != NULL) == (i == 2));
         assert_true((strstr(text, "\"reach_steps\":\t3") != NULL) == (i == 2));
-        free(text);
     }
 }
 
@@ -181,7 +174,7 @@ TEST_ON(test_files_in_files, 0) {
                "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\", \"tint\": [1, 0.5, 0]},"
                "{\"scene\": \"deep/inner.json\", \"to_world\": [0,-1,0,2, 1,0,0,0, 0,0,1,0, 0,0,0,1]},"
                "{\"scene\": \"deep/inner.json\", \"visible\": false}]}");
-    ewa_scene *opened = NULL, *made = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *opened = NULL, *made = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &opened), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &made), EWA_OK);
     assert_int_equal(ewa_scene_open(opened, "outer.json", NULL), EWA_OK);
@@ -207,7 +200,6 @@ TEST_ON(test_files_in_files, 0) {
     ewa_scene_options options;
     ewa_scene_get_options(opened, &options);
     assert_true(options.render.ambient == 0.15);
-    ewa_scene_destroy(&opened), ewa_scene_destroy(&made);
 }
 
 TEST_ON(test_callers_options_win, 0) {
@@ -218,7 +210,7 @@ TEST_ON(test_callers_options_win, 0) {
     options.render.ambient = 0.25;
     options.render.light_count = 1;
     ewa_light_init(&options.render.lights[0]);
-    ewa_scene *scene = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, &options, &scene), EWA_OK);
     assert_int_equal(ewa_scene_open(scene, "options.json", NULL), EWA_OK);
     ewa_scene_get_options(scene, &options);
@@ -226,11 +218,10 @@ TEST_ON(test_callers_options_win, 0) {
     assert_int_equal(options.up, EWA_UP_Z);
     assert_int_equal(options.render.light_count, 1);
     assert_true(options.render.lights[0].color[1] == 1);
-    ewa_scene_destroy(&scene);
 }
 
 TEST_ON(test_cameras_keep_their_heights, 0) {
-    ewa_scene *scene = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, "torus.ply", NULL, NULL);
     ewa_camera camera = place(scene), placed;
@@ -252,13 +243,12 @@ TEST_ON(test_cameras_keep_their_heights, 0) {
     assert_memory_not_equal(top.world_to_camera, camera.world_to_camera, sizeof camera.world_to_camera);
     assert_int_equal(ewa_scene_set_camera(scene, NULL), EWA_OK);
     assert_false(ewa_scene_get_camera(scene, &top));
-    ewa_scene_destroy(&scene);
 }
 
 static void refuse(const char *text, ewa_status expected, const char *part) {
     check_log heard = {.count = 0};
-    ewa_context *context = check_context(0, &heard);
-    ewa_scene *scene = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, &heard);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, "torus.ply", NULL, NULL);
     ewa_scene_options before, after;
@@ -272,8 +262,6 @@ static void refuse(const char *text, ewa_status expected, const char *part) {
     assert_memory_equal(&before, &after, sizeof before);
     ewa_camera camera;
     assert_false(ewa_scene_get_camera(scene, &camera));
-    ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
 #define ITEM(members) "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}, {" members "}]}"
@@ -285,9 +273,8 @@ static void refuse(const char *text, ewa_status expected, const char *part) {
 #define MEASURE(members) "{\"ewa_scene\": 1, \"measures\": [{" members "}]}"
 
 /// Measurements are saved and come back, number by number; scenes of scenes have their own alone.
-TEST(test_measures_come_back) {
-    ewa_context *context = check_context(0, NULL);
-    ewa_scene *scene = NULL, *copy = NULL, *again = NULL;
+TEST_ON(test_measures_come_back, 0) {
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL, *copy = NULL, *again = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, "torus.ply", NULL, NULL);
     ewa_measure measures[2] = {{EWA_MEASURE_HEIGHT, "mast \"3\" \xc3\xa4", 2, {849211.24, 1233496.1, 103, 1, 2, 1.0 / 3}},
@@ -307,21 +294,15 @@ TEST(test_measures_come_back) {
     assert_int_equal(ewa_scene_open(again, "measures.json", NULL), EWA_OK);
     assert_null(ewa_scene_measure(again, 1));
     write_text("outer.json", "{\"ewa_scene\": 1, \"items\": [{\"scene\": \"measures.json\"}]}");
-    ewa_scene_file *file = NULL;
+    OWNED(ewa_scene_file_destroy) ewa_scene_file *file = NULL;
     ewa_measure measure;
     assert_int_equal(ewa_scene_file_load(context, "outer.json", NULL, &file), EWA_OK);
     assert_false(ewa_scene_file_measure(file, 0, &measure));
-    ewa_scene_file_destroy(&file);
-    ewa_scene_destroy(&scene);
-    ewa_scene_destroy(&copy);
-    ewa_scene_destroy(&again);
-    ewa_context_destroy(&context);
 }
 
 /// So are keyframes, as cameras that --path reads, too; a scene that has some keeps them.
-TEST(test_keyframes_come_back) {
-    ewa_context *context = check_context(0, NULL);
-    ewa_scene *scene = NULL, *copy = NULL, *again = NULL;
+TEST_ON(test_keyframes_come_back, 0) {
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL, *copy = NULL, *again = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, "torus.ply", NULL, NULL);
     ewa_camera keys[EWA_MAX_KEYFRAMES + 1];
@@ -346,10 +327,6 @@ TEST(test_keyframes_come_back) {
     assert_int_equal(ewa_scene_set_keyframes(again, keys, 1), EWA_OK);
     assert_int_equal(ewa_scene_open(again, "keyframes.json", NULL), EWA_OK);
     assert_null(ewa_scene_keyframe(again, 1));
-    ewa_scene_destroy(&scene);
-    ewa_scene_destroy(&copy);
-    ewa_scene_destroy(&again);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_bad_is_refused) {
@@ -429,11 +406,10 @@ TEST(test_bad_is_refused) {
 TEST_ON(test_text_of_windows, 0) {
     write_text("windows.json", "\xef\xbb\xbf{\r\n  \"ewa_scene\": 1,\r\n  \"items\": [{\"file\": \"deep\\\\sphere.ply\"}]\r\n}\r\n");
     assert_true(ewa_scene_file_probe("windows.json"));
-    ewa_scene *scene = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_scene_open(scene, "windows.json", NULL), EWA_OK);
     assert_int_equal(ewa_scene_count(scene), 1);
-    ewa_scene_destroy(&scene);
 }
 
 TEST(test_links_and_pipes) {
@@ -447,14 +423,13 @@ TEST(test_links_and_pipes) {
 /// Percentiles are those from the lowest number to the highest.
 TEST_ON(test_percentiles, 0) {
     write_text("all.json", ITEM("\"file\": \"torus.ply\", \"range\": [\"0%\", \"100%\"]"));
-    ewa_scene_file *file = NULL;
+    OWNED(ewa_scene_file_destroy) ewa_scene_file *file = NULL;
     ewa_scene_entry entry;
     assert_int_equal(ewa_scene_file_load(context, "all.json", NULL, &file), EWA_OK);
     assert_int_equal(ewa_scene_file_entry(file, 1, &entry), EWA_OK);
     const ewa_coloring *coloring = &entry.instance.coloring;
     assert_true(coloring->ranged && coloring->percent[0] && coloring->percent[1]);
     assert_true(coloring->range[0] == 0 && coloring->range[1] == 100);
-    ewa_scene_file_destroy(&file);
 }
 
 TEST_ON(test_depth_and_number, 0) {
@@ -486,7 +461,7 @@ TEST_ON(test_depth_and_number, 0) {
 }
 
 TEST_ON(test_truncations, 0) {
-    char *text = read_text("saved.json");
+    OWNED(check_free) char *text = read_text("saved.json");
     const size_t size = strlen(text);
     assert_true(size > 500);
     ewa_scene_file *file = NULL;
@@ -498,19 +473,18 @@ TEST_ON(test_truncations, 0) {
         assert_null(file);
         if (!length) break;
     }
-    free(text);
 }
 
 TEST(test_unsaveable) {
     check_log heard = {.count = 0};
-    ewa_context *context = check_context(0, &heard);
-    ewa_scene *scene = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, &heard);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, "torus.ply", NULL, NULL);
     assert_int_equal(ewa_scene_save(scene, NULL, "deep/outside.json"), EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(heard.text, "torus.ply"));
     assert_int_not_equal(access("deep/outside.json", F_OK), 0);
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     WITH_DEFAULTS(ewa_generate_options, options);
     options.point_count = 100;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
@@ -521,9 +495,6 @@ TEST(test_unsaveable) {
     ewa_asset_release(&asset);
     assert_int_equal(ewa_scene_save(scene, NULL, "memory.json"), EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(heard.text, "mine"));
-    ewa_scene_destroy(&scene);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_filters_as_text) {

@@ -27,11 +27,10 @@ static ewa_surfels *add_as(ewa_context *context, ewa_scene *scene, const ewa_clo
         add_cloud(context, scene, cloud, NULL);
         return NULL;
     }
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     ewa_surfels *surfels = check_surfels(cloud, NULL);
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.surfels = surfels}, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-    ewa_asset_release(&asset);
     return surfels;
 }
 
@@ -39,8 +38,8 @@ static ewa_surfels *add_as(ewa_context *context, ewa_scene *scene, const ewa_clo
 /// colours, or by lights that are given, is not.
 TEST(test_bare_light) {
     (void)state;
-    ewa_context *context = check_context(1, NULL);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, NULL);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_cloud_remove(cloud, EWA_COLOR);
     for (int round = 0; round < 6; round++) {
         const int kind = round % 3;
@@ -65,8 +64,6 @@ TEST(test_bare_light) {
         ewa_surfels_destroy(&surfels);
         if (kind == 1) ewa_cloud_remove(cloud, EWA_COLOR);
     }
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// An octahedron of one colour is lit as what has none, since its form is all there is to see; one of many, one that is
@@ -85,7 +82,7 @@ TEST_ON(test_plain_mesh, 1) {
         ewa_asset *asset = NULL;
         assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.mesh = &mesh}, NULL, &asset), EWA_OK);
         ewa_mesh_free(&mesh);
-        ewa_scene *scene = make_scene(context);
+        OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context);
         WITH_DEFAULTS(ewa_instance, instance);
         instance.coloring.tinted = kind == TINTED;
         if (kind == HEIGHTS) snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "z");
@@ -100,7 +97,6 @@ TEST_ON(test_plain_mesh, 1) {
         assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
         draw(context, scene, &camera, &second);
         assert_true((memcmp(first.rgba, second.rgba, sizeof first.rgba) == 0) == (kind > PLAIN));
-        ewa_scene_destroy(&scene);
     }
 }
 
@@ -125,14 +121,14 @@ static ewa_cloud *make_photograph(ewa_context *context, float color) {
 TEST_ON(test_photographed, 1) {
     enum { PLAIN, LIT, NORMALS, ELSEWHERE, BESIDE_BARE, KINDS };
     for (int kind = 0; kind < KINDS; kind++) {
-        ewa_cloud *cloud = make_photograph(context, 0.5f);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_photograph(context, 0.5f);
         if (kind == NORMALS) {
             WITH_DEFAULTS(ewa_estimate_options, options);
             assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         }
         const double away[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
         if (kind == ELSEWHERE) assert_int_equal(ewa_cloud_transform(cloud, away), EWA_OK);
-        ewa_scene *scene = make_scene(context);
+        OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context);
         add_cloud(context, scene, cloud, NULL);
         ewa_scene_options options;
         ewa_scene_get_options(scene, &options);
@@ -140,6 +136,7 @@ TEST_ON(test_photographed, 1) {
         ewa_light_init(&options.render.lights[0]);
         assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
         const ewa_camera camera = place(scene);
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *bare = kind == BESIDE_BARE ? make_object(context, EWA_OBJECT_SPHERE, 0) : NULL;
         if (bare) {
             ewa_cloud_remove(bare, EWA_COLOR);
@@ -158,9 +155,6 @@ TEST_ON(test_photographed, 1) {
         assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
         draw(context, scene, &camera, &second);
         assert_true((memcmp(first.rgba, second.rgba, sizeof first.rgba) == 0) == (kind != PLAIN));
-        ewa_scene_destroy(&scene);
-        ewa_cloud_destroy(&cloud);
-        ewa_cloud_destroy(&bare);
     }
 }
 

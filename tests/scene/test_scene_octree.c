@@ -30,7 +30,7 @@ static picture first, second, third;
 static int enter(void **state) {
     static const char *const names[] = {points};
     lod_clear();
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, POINTS, (lod_look){true, true});
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     void *data = NULL, *classes = NULL, *other = NULL;
@@ -50,7 +50,6 @@ static int enter(void **state) {
     assert_non_null(ewa_cloud_find(cloud, EWA_CURVATURE));
     lod_save(cloud, points);
     assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
-    ewa_context_destroy(&context);
     return 0;
 }
 
@@ -69,14 +68,13 @@ static ewa_asset_options asset_options(const double to_world[16]) {
 /// A scene of the octree, or of the cloud.
 static ewa_scene *make_scene(ewa_context *context, const char *name, const ewa_asset_options *options) {
     char path[512];
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     ewa_scene *scene = NULL;
     WITH_DEFAULTS(ewa_scene_options, of);
     of.close_gaps = false; // the radii of both are those of the file
     assert_int_equal(ewa_asset_load(context, scratch_path(name, path), options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_create(context, &of, &scene), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-    ewa_asset_release(&asset);
     return scene;
 }
 
@@ -131,6 +129,7 @@ static void set(ewa_scene *scene, const ewa_instance *instance) {
 /// What is done to the octree is done to the camera the other way round: cuts and places are those of its own space.
 TEST_ON(test_moves_like_a_camera, 2) {
     const ewa_asset_options still = asset_options(NULL), moved = asset_options(turned);
+    OWNED(ewa_scene_destroy)
     ewa_scene *scene = make_scene(context, file, &still), *away = make_scene(context, file, &moved);
     ewa_camera camera = place(scene);
     // From far away by a level of the root, whose groups follow the world's axes; nearer by a few nodes; nearest by all points.
@@ -158,7 +157,6 @@ TEST_ON(test_moves_like_a_camera, 2) {
             if (isfinite(first.depth[i])) assert_true(fabsf(first.depth[i] - second.depth[i]) < 1e-3f);
         }
     }
-    ewa_scene_destroy(&scene), ewa_scene_destroy(&away);
 }
 
 /// All points of the octree are those of the cloud, wherever both are put; its levels are like them.
@@ -166,6 +164,7 @@ TEST_ON(test_moves_like_a_cloud, 2) {
     const double *const maps[] = {turned, mirrored};
     for (int m = 0; m < 2; m++) {
         const ewa_asset_options options = asset_options(maps[m]);
+        OWNED(ewa_scene_destroy)
         ewa_scene *octree = make_scene(context, file, &options),
                   *cloud = make_scene(context, points, &options);
         const ewa_camera camera = place(cloud);
@@ -181,7 +180,6 @@ TEST_ON(test_moves_like_a_cloud, 2) {
             assert_true(boxes[0].high_world[c] >= boxes[1].high_world[c] - 1e-5);
             assert_true(boxes[0].high_world[c] - boxes[0].low_world[c] < 9);
         }
-        ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
     }
 }
 
@@ -189,6 +187,7 @@ TEST_ON(test_moves_like_a_cloud, 2) {
 TEST_ON(test_instances, 2) {
     static const char *const attributes[] = {"z", "normal.x", "red", "intensity", "", ""};
     const ewa_asset_options options = asset_options(turned);
+    OWNED(ewa_scene_destroy)
     ewa_scene *octree = make_scene(context, file, &options), *cloud = make_scene(context, points, &options);
     const ewa_camera camera = place(cloud);
     draw(context, octree, &camera, 0, &third);
@@ -214,14 +213,13 @@ TEST_ON(test_instances, 2) {
     set(octree, &plain);
     draw(context, octree, &camera, 0, &second);
     assert_memory_equal(second.rgba8, third.rgba8, sizeof second.rgba8);
-    ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
 }
 
 /// A scale is one for a cloud and an octree that are coloured alike.
 TEST_ON(test_one_scale, 1) {
     const ewa_asset_options still = asset_options(NULL), away = asset_options(turned);
-    ewa_scene *scene = make_scene(context, file, &still);
-    ewa_asset *cloud = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, file, &still);
+    OWNED(ewa_asset_release) ewa_asset *cloud = NULL;
     char path[512];
     WITH_DEFAULTS(ewa_instance, instance);
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "z");
@@ -235,8 +233,6 @@ TEST_ON(test_one_scale, 1) {
     legend = ewa_scene_legend(scene, 0);
     assert_ptr_equal(legend, ewa_scene_legend(scene, 1));
     assert_true(fabs(legend->range[0] + 0.1) < 0.01 && legend->range[1] > 41);
-    ewa_asset_release(&cloud);
-    ewa_scene_destroy(&scene);
 }
 
 /// A filter takes the points that it takes of a cloud, in the octree's own space.
@@ -248,6 +244,7 @@ TEST_ON(test_filters, 2) {
         assert_int_equal(ewa_filter_add(&filter, terms[k], NULL), EWA_OK);
         ewa_asset_options options = asset_options(turned);
         options.filter = &filter;
+        OWNED(ewa_scene_destroy)
         ewa_scene *octree = make_scene(context, file, &options),
                   *cloud = make_scene(context, points, &options);
         const ewa_camera camera = place(cloud);
@@ -261,18 +258,16 @@ TEST_ON(test_filters, 2) {
         } else {
             assert_int_equal(try_draw(context, octree, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
         }
-        ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
     }
     // One that takes nothing of the points that stand for the whole leaves nothing to see, and a camera.
     ewa_filter none = {.term_count = 0};
     assert_int_equal(ewa_filter_add(&none, "x > 5", NULL), EWA_OK);
     ewa_asset_options options = asset_options(NULL);
     options.filter = &none;
-    ewa_scene *empty = make_scene(context, file, &options);
+    OWNED(ewa_scene_destroy) ewa_scene *empty = make_scene(context, file, &options);
     const ewa_camera camera = place(empty);
     draw(context, empty, &camera, 16, &first);
     for (int i = 0; i < PIXELS; i++) assert_true(isinf(first.depth[i]));
-    ewa_scene_destroy(&empty);
 }
 
 /// What represents points is coloured by their attributes: like the cloud, each class in its own colour, the same bytes for threads.
@@ -280,8 +275,9 @@ TEST(test_attributes_of_levels) {
     static const char *const words[] = {"intensity", "classification"};
     for (int k = 0; k < 2; k++) {
         for (uint32_t threads = 1; threads <= 3; threads += 2) {
-            ewa_context *context = check_context(threads, NULL);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
             const ewa_asset_options options = asset_options(NULL);
+            OWNED(ewa_scene_destroy)
             ewa_scene *octree = make_scene(context, file, &options), *cloud = make_scene(context, points, &options);
             const ewa_camera camera = place(cloud);
             WITH_DEFAULTS(ewa_instance, instance);
@@ -295,8 +291,6 @@ TEST(test_attributes_of_levels) {
             assert_memory_equal(third.rgba8, second.rgba8, sizeof third.rgba8);
             draw(context, octree, &camera, 0, &second);
             hold_like("all points", &first, &second, 65);
-            ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
-            ewa_context_destroy(&context);
         }
     }
 }
@@ -312,7 +306,7 @@ TEST(test_choice_of_attributes) {
                  {"warmth", NULL, EWA_ERROR_ARGUMENT}, {"normal", NULL, EWA_ERROR_ARGUMENT}, {"x", NULL, EWA_ERROR_ARGUMENT},
                  {",user_data", NULL, EWA_ERROR_ARGUMENT}};
     check_log log = {.count = 0};
-    ewa_context *context = check_context(2, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, &log);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         WITH_DEFAULTS(ewa_lod_build_options, options);
         options.memory_bytes = LOD_MEMORY_BYTES;
@@ -333,15 +327,12 @@ TEST(test_choice_of_attributes) {
         ewa_lod_close(&lod);
         unlink(path);
     }
-    ewa_context_destroy(&context);
 }
 
 /// What cannot be is refused with the file's name, and leaves the octree as it was.
-TEST(test_refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_refused, 1) {
     const ewa_asset_options options = asset_options(NULL);
-    ewa_scene *scene = make_scene(context, file, &options);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, file, &options);
     const ewa_camera camera = place(scene);
     draw(context, scene, &camera, 16, &first);
     WITH_DEFAULTS(ewa_instance, instance);
@@ -349,26 +340,24 @@ TEST(test_refused) {
     set(scene, &instance);
     assert_int_equal(try_draw(context, scene, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
     assert_non_null(
-        strstr(log.text, "ground.copc.laz: what represents points at its levels has no user_data"));
+        strstr(log->text, "ground.copc.laz: what represents points at its levels has no user_data"));
     draw(context, scene, &camera, 0, &second);
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "warmth");
     set(scene, &instance);
     assert_int_equal(try_draw(context, scene, &camera, 0, &second), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "warmth"));
+    assert_non_null(strstr(log->text, "warmth"));
     ewa_instance_init(&instance, sizeof instance);
     set(scene, &instance);
     draw(context, scene, &camera, 16, &second);
     assert_memory_equal(first.rgba8, second.rgba8, sizeof first.rgba8);
-    ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Picks find points where they were moved to.
 TEST_ON(test_pick, 1) {
     const ewa_asset_options options = asset_options(turned);
-    ewa_scene *scene = make_scene(context, file, &options);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, file, &options);
     const ewa_camera camera = place(scene);
-    ewa_scene_renderer *renderer = NULL;
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = NULL;
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     ewa_scene_hit hit;
     assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, WIDTH / 2, HEIGHT / 2, 2, 0.1, &hit),
@@ -381,23 +370,21 @@ TEST_ON(test_pick, 1) {
     height = 0.1 * sin(4 * back[0]) * cos(3 * back[1]); // of the ground that the octree was made of
     assert_true(fabs(back[2] - height) < 1e-5 && fabs(back[0]) <= 1 && fabs(back[1]) <= 1);
     ewa_cloud_destroy(&hit.points);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
 }
 
 /// An octree that is lent to a scene is drawn as it is where nobody says otherwise.
 TEST_ON(test_lent, 1) {
     char path[512];
-    ewa_lod *lod = NULL;
+    OWNED(ewa_lod_close) ewa_lod *lod = NULL;
     assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
     const ewa_asset_options options = asset_options(turned);
-    ewa_asset *asset = NULL;
-    ewa_scene *scene = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.lod = lod}, &options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
     const ewa_camera camera = place(scene);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     ewa_frame frame = {.rgba8 = third.rgba8};
     assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, NULL, &frame, NULL), EWA_OK);
     draw(context, scene, &camera, 16, &first);
@@ -405,17 +392,13 @@ TEST_ON(test_lent, 1) {
     assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, NULL, &frame, NULL), EWA_OK);
     assert_memory_equal(second.rgba8, third.rgba8, sizeof second.rgba8);
     assert_true(psnr_db(&first, &second) < 30);
-    ewa_renderer_destroy(&renderer);
-    ewa_asset_release(&asset);
-    ewa_scene_destroy(&scene);
-    ewa_lod_close(&lod);
 }
 
 /// Adds one octree in two places, and in one of them once more in another colour: of one that is lent, or of files that
 /// are opened for themselves.
 static void add_three(ewa_context *context, ewa_scene *scene, ewa_lod *lent) {
     char path[512];
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     WITH_DEFAULTS(ewa_instance, instance);
     for (int i = 0; i < 3; i++) {
         const ewa_asset_options options = asset_options(i ? turned : NULL);
@@ -427,14 +410,13 @@ static void add_three(ewa_context *context, ewa_scene *scene, ewa_lod *lent) {
         instance.coloring.tinted = i == 2, instance.coloring.tint[0] = 0.25;
         assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
     }
-    ewa_asset_release(&asset);
 }
 
 /// One octree several times in a scene is drawn as octrees of their own are, whichever of them can be seen.
 TEST_ON(test_several_times, 1) {
     char path[512];
-    ewa_lod *lod = NULL;
-    ewa_scene *shared = NULL, *apart = NULL;
+    OWNED(ewa_lod_close) ewa_lod *lod = NULL;
+    OWNED(ewa_scene_destroy) ewa_scene *shared = NULL, *apart = NULL;
     assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &shared), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &apart), EWA_OK);
@@ -456,8 +438,6 @@ TEST_ON(test_several_times, 1) {
         if (hidden == 3) third = first;
         if (hidden < 3) assert_true(psnr_db(&first, &third) < 60);
     }
-    ewa_scene_destroy(&shared), ewa_scene_destroy(&apart);
-    ewa_lod_close(&lod);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

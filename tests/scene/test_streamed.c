@@ -57,7 +57,7 @@ static const char *write_levels(ewa_context *context, char path[512]) {
 static ewa_scene *make_scene(ewa_context *context, bool streamed, const double to_world[16]) {
     char path[512];
     ewa_asset_options options;
-    ewa_asset *asset = NULL;
+    OWNED(ewa_asset_release) ewa_asset *asset = NULL;
     ewa_scene *scene = NULL;
     write_levels(context, path);
     ewa_asset_options_init(&options, sizeof options);
@@ -65,17 +65,15 @@ static ewa_scene *make_scene(ewa_context *context, bool streamed, const double t
     if (streamed) {
         assert_int_equal(ewa_asset_load(context, path, &options, &asset), EWA_OK);
     } else {
-        ewa_gaussians set;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_load(context, path, &set, NULL), EWA_OK);
         assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.gaussians = &set}, &options, &asset), EWA_OK);
-        ewa_gaussians_free(&set);
     }
     ewa_asset_info info;
     ewa_asset_describe(asset, &info);
     assert_int_equal(info.count, COUNT);
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-    ewa_asset_release(&asset);
     return scene;
 }
 
@@ -120,6 +118,7 @@ static double decibels(const uint8_t *a, const uint8_t *b) {
 static uint8_t whole[BYTES], some[BYTES], again[BYTES], fine[16 * BYTES], truth[BYTES];
 
 TEST_ON(near_by_all_and_far_away_few, 2) {
+    OWNED(ewa_scene_destroy)
     ewa_scene *streamed = make_scene(context, true, NULL), *all = make_scene(context, false, NULL);
     ewa_scene_options options = options_of(streamed, 0), merged = options_of(streamed, MERGE_PX);
     ewa_scene_info info;
@@ -156,13 +155,11 @@ TEST_ON(near_by_all_and_far_away_few, 2) {
     assert_true(half.render.splat_count < COUNT * 2 / 3 && half.lod.resident_bytes < COUNT * 2 / 3 * 64);
     draw(context, all, NULL, &inside, &options, whole);
     assert_true(decibels(whole, some) > 60);
-    ewa_scene_destroy(&streamed);
-    ewa_scene_destroy(&all);
 }
 
 TEST_ON(bounded, 2) {
-    ewa_scene *scene = make_scene(context, true, NULL);
-    ewa_scene_renderer *renderer = make_renderer(context);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, true, NULL);
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = make_renderer(context);
     ewa_scene_options options = options_of(scene, 0), most = options_of(scene, MERGE_PX);
     const ewa_camera here = look(2, 1), there = look(-20, 1);
     options.lod.memory_bytes = 1 << 24; // all are 18 million
@@ -191,19 +188,15 @@ TEST_ON(bounded, 2) {
     } while (stats.lod.missing_count);
     assert_true(frames > 1);
     assert_memory_equal(some, whole, BYTES);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
 }
 
 TEST(same_bytes_for_threads) {
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
-        ewa_context *context = check_context(threads, NULL);
-        ewa_scene *scene = make_scene(context, true, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
+        OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, true, NULL);
         const ewa_scene_options options = options_of(scene, MERGE_PX);
         const ewa_camera camera = look(10, 1);
         draw(context, scene, NULL, &camera, &options, threads == 1 ? whole : some);
-        ewa_scene_destroy(&scene);
-        ewa_context_destroy(&context);
     }
     assert_memory_equal(some, whole, BYTES);
 }
@@ -215,7 +208,7 @@ TEST_ON(shown_as_sets_are, 2) {
         const ewa_camera camera = look(n == 3 ? 40 : 3, 1);
         ewa_scene_renderer *renderer = make_renderer(context);
         for (int streamed = 0; streamed < 2; streamed++) {
-            ewa_scene *scene = make_scene(context, streamed, n == 3 ? to_world : NULL);
+            OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, streamed, n == 3 ? to_world : NULL);
             ewa_instance instance;
             ewa_scene_options options = options_of(scene, 0);
             ewa_instance_init(&instance, sizeof instance);
@@ -233,7 +226,6 @@ TEST_ON(shown_as_sets_are, 2) {
             assert_int_equal(ewa_scene_set(scene, 0, &last), EWA_OK);
             draw(context, scene, renderer, &camera, &options, streamed ? some : whole);
             if (n < 2) assert_true(decibels(again, streamed ? some : whole) < 30);
-            ewa_scene_destroy(&scene);
         }
         ewa_scene_renderer_destroy(&renderer);
         print_message("%d: %.1f dB\n", n, decibels(whole, some));
@@ -242,22 +234,17 @@ TEST_ON(shown_as_sets_are, 2) {
 }
 
 /// A file that is gone when it is needed is named.
-TEST(gone) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_scene *scene = make_scene(context, true, NULL);
-    ewa_scene_renderer *renderer = make_renderer(context);
+TEST_LOGGED(gone, 1) {
+    OWNED(ewa_scene_destroy) ewa_scene *scene = make_scene(context, true, NULL);
+    OWNED(ewa_scene_renderer_destroy) ewa_scene_renderer *renderer = make_renderer(context);
     const ewa_scene_options options = options_of(scene, 0);
     const ewa_camera camera = look(2, 1);
     char from[512], to[512];
     assert_int_equal(rename(level_path("0_0.sog", from), level_path("away.sog", to)), 0);
     assert_int_equal(ewa_scene_draw(scene, renderer, &camera, &options, &(ewa_frame){.rgba8 = some}, NULL), EWA_ERROR_IO);
-    assert_non_null(strstr(log.text, "0_0.sog"));
+    assert_non_null(strstr(log->text, "0_0.sog"));
     assert_int_equal(rename(to, from), 0);
     assert_int_equal(ewa_scene_draw(scene, renderer, &camera, &options, &(ewa_frame){.rgba8 = some}, NULL), EWA_OK);
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -35,10 +35,9 @@ cubes cubes_make(const ewa_cloud *cloud, uint32_t per_axis) {
         for (uint64_t i = 0; i < count; i++)
             if (cube_of(places[i], &box, per_axis) == cube) indices[here++] = i;
         if (!here) continue;
-        ewa_cloud *part = NULL;
+        OWNED(ewa_cloud_destroy) ewa_cloud *part = NULL;
         assert_int_equal(ewa_cloud_select(cloud, indices, here, &part), EWA_OK);
         assert_int_equal(ewa_surfels_create(part, NULL, &made.part[made.count++]), EWA_OK);
-        ewa_cloud_destroy(&part);
     }
     free(indices);
     free(places);

@@ -14,7 +14,7 @@ static const double PI = 3.14159265358979323846;
 static uint32_t throw_darts(check_random *random, uint32_t count, float *xy) {
     const double apart = 2 * 0.81 / sqrt(count);
     const uint32_t side = (uint32_t)(2 / (apart / sqrt(2))) + 1;
-    int32_t *cells = malloc((size_t)side * side * sizeof *cells);
+    OWNED(check_free) int32_t *cells = malloc((size_t)side * side * sizeof *cells);
     assert_non_null(cells);
     for (size_t i = 0; i < (size_t)side * side; i++) cells[i] = -1;
     uint32_t made = 0;
@@ -33,7 +33,6 @@ static uint32_t throw_darts(check_random *random, uint32_t count, float *xy) {
         xy[2 * made] = (float)x, xy[2 * made + 1] = (float)y;
         made++;
     }
-    free(cells);
     return made;
 }
 

@@ -237,13 +237,12 @@ void picture_set_orthographic(scene *of) {
 
 void picture_hold(scene *of, const ewa_render_options *options, bool orthographic, const char *what) {
     if (orthographic) picture_set_orthographic(of);
-    picture reference = picture_of_scene(of, NULL, options);
+    OWNED(picture_free) picture reference = picture_of_scene(of, NULL, options);
+    OWNED(picture_free)
     picture fast = picture_draw(ewa_cloud_context(of->cloud), of->cloud, &of->camera, NULL, options);
     const picture_report report = picture_compare(&reference, &fast, 2e-3, NULL);
     picture_print(what, &report);
     assert_true(report.over_count * 200 < report.pixel_count);
-    picture_free(&reference);
-    picture_free(&fast);
 }
 
 void picture_add_clips(ewa_cloud *cloud) {

@@ -113,12 +113,12 @@ TEST(test_shading) {
 
 /// In the middle of a sphere, front and back, as many fragments as surfaces are exact layers.
 TEST_ON(test_exact_on_separate_surfaces, 0) {
-    scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
+    OWNED(scene_free) scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     WITH_DEFAULTS(ewa_render_options, options);
     options.opacity = 0.5;
     options.shading = EWA_SHADING_NONE;
-    picture exact = picture_of_scene(&of, NULL, &options);
-    float *greedy = malloc((size_t)PICTURE_SIDE_PX * PICTURE_SIDE_PX * 4 * sizeof *greedy);
+    OWNED(picture_free) picture exact = picture_of_scene(&of, NULL, &options);
+    OWNED(check_free) float *greedy = malloc((size_t)PICTURE_SIDE_PX * PICTURE_SIDE_PX * 4 * sizeof *greedy);
     assert_non_null(greedy);
     assert_int_equal(
         abuffer_render(of.cloud, of.unit_coverage, &of.camera, &options, FRAGMENTS, NULL, NULL, greedy),
@@ -135,13 +135,10 @@ TEST_ON(test_exact_on_separate_surfaces, 0) {
         }
     printf("%llu of %llu pixels differ\n", (unsigned long long)different, (unsigned long long)compared);
     assert_true(compared > 3000 && different == 0);
-    free(greedy);
-    picture_free(&exact);
-    scene_free(&of);
 }
 
 TEST_ON(test_arguments, 1) {
-    ewa_cloud *cloud = make_discs(context, &red, 1);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_discs(context, &red, 1);
     ewa_camera camera = disc_camera();
     WITH_DEFAULTS(ewa_render_options, options);
     float plane[4 * SIDE * SIDE];
@@ -149,7 +146,6 @@ TEST_ON(test_arguments, 1) {
     assert_int_equal(abuffer_render(cloud, 1, NULL, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
     camera.fx_px = 0;
     assert_int_equal(abuffer_render(cloud, 1, &camera, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -157,10 +157,10 @@ TEST(test_eye_dome_bytes) {
 
 /// What only some sources have: alphas and materials of a proxy count.
 TEST_ON(test_proxy_facts, 2) {
-    scene of;
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, WIDTH, HEIGHT, &of), EWA_OK);
     enum { FEW = 40 };
-    ewa_cloud *other = check_cloud_of(context, FEW);
+    OWNED(ewa_cloud_destroy) ewa_cloud *other = check_cloud_of(context, FEW);
     float *position = check_add(other, EWA_POSITION, EWA_F32, 3);
     float *normal = check_add(other, EWA_NORMAL, EWA_F32, 3);
     float *radius = check_add(other, EWA_RADIUS, EWA_F32, 1);
@@ -186,7 +186,7 @@ TEST_ON(test_proxy_facts, 2) {
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = materials, options.material_count = 2;
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     picture drawn[3];
     for (int i = 0; i < 3; i++) { // with the other, with its proxy, alone
         drawn[i] = picture_make(WIDTH, HEIGHT);
@@ -201,9 +201,6 @@ TEST_ON(test_proxy_facts, 2) {
     const size_t bytes = (size_t)16 * WIDTH * HEIGHT; // without the proxy the picture is another one
     assert_true(memcmp(drawn[0].frame.rgba, drawn[2].frame.rgba, bytes) != 0);
     for (int i = 0; i < 3; i++) picture_free(&drawn[i]), ewa_surfels_destroy(&surfels[i]);
-    ewa_renderer_destroy(&renderer);
-    ewa_cloud_destroy(&other);
-    scene_free(&of);
 }
 
 /// q0 that is set is what coverage is measured by.

@@ -16,19 +16,18 @@ static void strew(ewa_cloud *cloud, uint64_t step) {
 /// q0 of a cloud, which the reference is told.
 static double measure_coverage(const ewa_cloud *cloud) {
     ewa_surfels_info info;
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
-    ewa_surfels_destroy(&surfels);
     return info.unit_coverage;
 }
 
 /// The fast pipeline agrees with the reference, for every kernel, with back faces left out and cut by planes.
 TEST(test_reference) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_ELLIPSES, SCENE_NEAR};
     for (int kind = 0; kind < 3; kind++) {
-        scene made = picture_measured_scene(context, kinds[kind], 1600, NULL);
+        OWNED(scene_free) scene made = picture_measured_scene(context, kinds[kind], 1600, NULL);
         strew(made.cloud, 3);
         made.unit_coverage = measure_coverage(made.cloud);
         ewa_render_options options;
@@ -45,9 +44,7 @@ TEST(test_reference) {
         }
         ewa_render_options_init(&options, sizeof options);
         picture_hold(&made, &options, true, "billboards, orthographic");
-        scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 enum { SIDE = 64, POINTS = 300 };
@@ -78,7 +75,7 @@ static ewa_cloud *make_points(ewa_context *context, const double forward[3], boo
 /// their levels, and back faces they have none.
 TEST(test_face_the_picture) {
     (void)state;
-    ewa_context *context = check_context(0, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
     static const double forwards[3][3] = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     for (int i = 0; i < 12; i++) {
         const double *forward = forwards[i % 3], distance = i < 6 ? 3 : 40, up[3] = {i % 3 == 2, 0, i % 3 != 2};
@@ -92,18 +89,17 @@ TEST(test_face_the_picture) {
         WITH_DEFAULTS(ewa_render_options, options);
         options.cull = i % 2 ? EWA_CULL_BACK : EWA_CULL_NONE;
         options.supersampling = 1;
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *facing = make_points(context, forward, true, 0), *strewn = make_points(context, forward, false, 1);
         picture wanted = picture_draw(context, facing, &camera, &surfels, &options);
-        picture shown = picture_draw(context, strewn, &camera, &surfels, &options);
+        OWNED(picture_free) picture shown = picture_draw(context, strewn, &camera, &surfels, &options);
         for (int k = 0; k < 4 * SIDE * SIDE; k++)
             assert_true(fabsf(wanted.frame.rgba[k] - shown.frame.rgba[k]) < 1e-4F);
         double covered = 0;
         for (int k = 0; k < SIDE * SIDE; k++) covered += (double)wanted.frame.rgba[4 * k + 3];
         assert_true(covered > 10);
-        picture_free(&wanted), picture_free(&shown);
-        ewa_cloud_destroy(&facing), ewa_cloud_destroy(&strewn);
+        picture_free(&wanted);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -11,14 +11,12 @@
 enum { POINTS = 1200, SIDE = 128 };
 
 static void hold(scene_kind kind, const ewa_render_options *options, bool orthographic, const char *what) {
-    ewa_context *context = check_context(0, NULL);
-    scene of = picture_measured_scene(context, kind, POINTS, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+    OWNED(scene_free) scene of = picture_measured_scene(context, kind, POINTS, NULL);
     picture_add_clips(of.cloud);
     char name[96];
     snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
     picture_hold(&of, options, orthographic, name);
-    scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_pipeline_holds) {
@@ -86,12 +84,12 @@ TEST_ON(test_known_answers, 0) {
     };
     const ewa_camera camera = ahead();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        ewa_cloud *cloud = one_surfel(context, rows[i].lines, rows[i].mode);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = one_surfel(context, rows[i].lines, rows[i].mode);
         for (int kernel = 0; kernel < 5; kernel++) {
             WITH_DEFAULTS(ewa_render_options, o);
             o.kernel = (ewa_kernel)kernel;
             o.shading = EWA_SHADING_NONE;
-            picture made = picture_draw(context, cloud, &camera, NULL, &o);
+            OWNED(picture_free) picture made = picture_draw(context, cloud, &camera, NULL, &o);
             for (int q = 0; q < 4; q++) {
                 // Two pixels and more from the lines, well within the ellipse.
                 const int right = q == 0 || q == 3, below = q < 2;
@@ -102,9 +100,7 @@ TEST_ON(test_known_answers, 0) {
                     assert_true(alpha == (rows[i].quadrants >> q & 1 ? 1 : 0));
                 }
             }
-            picture_free(&made);
         }
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -113,16 +109,14 @@ TEST_ON(test_line_stays, 0) {
     static const float lines[2][3] = {{0, 1, 0.25f},
                                       {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
     const ewa_camera camera = ahead();
-    ewa_cloud *cloud = one_surfel(context, lines, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = one_surfel(context, lines, 0);
     for (double scale = 0.5; scale < 3; scale *= 2) {
         WITH_DEFAULTS(ewa_surfels_options, surfels);
         surfels.radius_scale = scale;
-        picture made = picture_draw(context, cloud, &camera, &surfels, NULL);
+        OWNED(picture_free) picture made = picture_draw(context, cloud, &camera, &surfels, NULL);
         const float *row = &made.frame.coverage[SIDE / 2 * SIDE];
         assert_true(row[SIDE / 2 + 7] > 0 && row[SIDE / 2 + 8] == 0);
-        picture_free(&made);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A disc of radius 3 seen straight on, whose surface ends at `border`.
@@ -153,12 +147,10 @@ TEST_ON(test_borders, 0) {
     const ewa_camera camera = ahead();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         for (int side = 0; side < 2; side++) {
-            ewa_cloud *cloud = one_disc(context, normals[side], rows[i].border);
-            picture made = picture_draw(context, cloud, &camera, NULL, NULL);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = one_disc(context, normals[side], rows[i].border);
+            OWNED(picture_free) picture made = picture_draw(context, cloud, &camera, NULL, NULL);
             const float *row = &made.frame.coverage[SIDE / 2 * SIDE + SIDE / 2];
             for (int x = -40; x < 40; x++) assert_true((row[x] > 0) == (x >= rows[i].first && x < rows[i].end));
-            picture_free(&made);
-            ewa_cloud_destroy(&cloud);
         }
 }
 

@@ -61,6 +61,7 @@ static double cover(const picture *drawn) {
 TEST_ON(test_pipelines, 0) {
     for (int variant = 0; variant < 20; variant++) {
         const int kernel = variant % 5;
+        OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = make_object(context, variant % 4 < 2 ? EWA_OBJECT_SPHERE : EWA_OBJECT_TORUS);
         float *normal = ewa_cloud_find(cloud, EWA_NORMAL)->data;
         float *curvature = ewa_cloud_find(cloud, EWA_CURVATURE)->data;
@@ -83,16 +84,13 @@ TEST_ON(test_pipelines, 0) {
         ewa_surfels_destroy(&surfels);
         scene with_coverage = of;
         with_coverage.unit_coverage = info.unit_coverage;
-        picture exact = picture_of_scene(&with_coverage, NULL, &options);
-        picture fast = picture_draw(context, cloud, &camera, NULL, &options);
+        OWNED(picture_free) picture exact = picture_of_scene(&with_coverage, NULL, &options);
+        OWNED(picture_free) picture fast = picture_draw(context, cloud, &camera, NULL, &options);
         double largest = 0;
         for (int i = 0; i < SIDE_PX * SIDE_PX; i++)
             largest = fmax(largest, fabs((double)exact.frame.rgba[4 * i + 3] - (double)fast.frame.rgba[4 * i + 3]));
         print_message("variant %d, kernel %d: alpha %.3g off at most, mean %.4f\n", variant, kernel, largest, cover(&fast));
         assert_true(largest < 0.02);
-        picture_free(&exact);
-        picture_free(&fast);
-        ewa_cloud_destroy(&cloud);
     }
 }
 

@@ -103,7 +103,7 @@ static ewa_camera sheet_camera(void) {
 TEST_ON(test_sheets_over_each_other, 0) {
     static const uint8_t rgba[4][4] = {
         {255, 0, 0, 51}, {0, 255, 0, 102}, {0, 0, 255, 204}, {255, 255, 255, 255}};
-    ewa_cloud *cloud = make_sheets(context, 4, rgba);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_sheets(context, 4, rgba);
     const ewa_camera camera = sheet_camera();
     for (uint32_t layers = 1; layers <= 6; layers++) {
         WITH_DEFAULTS(ewa_render_options, o);
@@ -126,7 +126,7 @@ TEST_ON(test_sheets_over_each_other, 0) {
         }
         expected[3] = 1 - through;
         if (layers == 1) expected[0] = 1, expected[3] = 1; // opaque red
-        picture made = picture_draw(context, cloud, &camera, NULL, &o);
+        OWNED(picture_free) picture made = picture_draw(context, cloud, &camera, NULL, &o);
         // The sums of kernels ripple by some percent, and with them the shares in a merged layer.
         const double allowed = layers > 1 && layers < 4 ? 0.03 : 1e-4;
         for (int y = 20; y < SIDE - 20; y++)
@@ -134,9 +134,7 @@ TEST_ON(test_sheets_over_each_other, 0) {
                 for (int c = 0; c < 4; c++)
                     assert_true(fabs((double)made.frame.rgba[4 * (y * SIDE + x) + c] - expected[c]) <
                                 allowed);
-        picture_free(&made);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Many sheets end at one place, where each covers the same part of a pixel: the background shows no more than through
@@ -145,15 +143,15 @@ TEST_ON(test_last_edge_layer_takes_all, 0) {
     enum { SHEETS = 30, RED = 3 };
     uint8_t rgba[SHEETS][4] = {{255, 0, 0, 255}, {255, 0, 0, 255}, {255, 0, 0, 255}};
     for (int k = RED; k < SHEETS; k++) rgba[k][2] = rgba[k][3] = 255;
-    ewa_cloud *one = make_sheets(context, 1, rgba), *all = make_sheets(context, SHEETS, rgba);
+    OWNED(ewa_cloud_destroy) ewa_cloud *one = make_sheets(context, 1, rgba), *all = make_sheets(context, SHEETS, rgba);
     ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 100), EWA_OK);
     int partly_count = 0;
     for (uint32_t layers = 1; layers <= EWA_MAX_EDGE_LAYERS; layers++) {
         WITH_DEFAULTS(ewa_render_options, o);
         o.shading = EWA_SHADING_NONE, o.edge_layers = layers;
-        picture alone = picture_draw(context, one, &camera, NULL, &o);
-        picture made = picture_draw(context, all, &camera, NULL, &o);
+        OWNED(picture_free) picture alone = picture_draw(context, one, &camera, NULL, &o);
+        OWNED(picture_free) picture made = picture_draw(context, all, &camera, NULL, &o);
         for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
             const double a = (double)alone.frame.rgba[4 * i + 3], k = (double)alone.frame.coverage[i];
             const float *pixel = made.frame.rgba + 4 * i;
@@ -169,20 +167,16 @@ TEST_ON(test_last_edge_layer_takes_all, 0) {
             if (layers > 1) assert_true(fabs((double)pixel[0] - red) < 0.02);
             partly_count += layers == EWA_MAX_EDGE_LAYERS;
         }
-        picture_free(&alone);
-        picture_free(&made);
     }
     assert_true(partly_count > 100);
-    ewa_cloud_destroy(&one);
-    ewa_cloud_destroy(&all);
 }
 
 /// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
 TEST_ON(test_sphere_is_even, 0) {
-    scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
+    OWNED(scene_free) scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     WITH_DEFAULTS(ewa_render_options, o);
     o.opacity = 0.3;
-    picture made = picture_draw(context, of.cloud, &of.camera, NULL, &o);
+    OWNED(picture_free) picture made = picture_draw(context, of.cloud, &of.camera, NULL, &o);
     const double expected = 1 - 0.7 * 0.7;
     double sum2 = 0, minimum = 1, maximum = 0;
     int count = 0;
@@ -196,8 +190,6 @@ TEST_ON(test_sphere_is_even, 0) {
            minimum, maximum);
     // A few pixels of random points are not quite covered.
     assert_true(sum2 / count < 1e-5 && maximum < expected + 1e-4);
-    picture_free(&made);
-    scene_free(&of);
 }
 
 static void assert_same(const picture *a, const picture *b) {
@@ -210,15 +202,15 @@ static void assert_same(const picture *a, const picture *b) {
 /// The same bytes from every instruction set, any number of threads, and the points in reverse.
 TEST_ON(test_same_bytes, 0) {
     static const uint32_t threads[] = {1, 2, 7}, masks[] = {UINT32_MAX, EWA_CPU_AVX2, 0};
-    scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);
+    OWNED(scene_free) scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);
     add_alpha(of.cloud, 20, 5);
     WITH_DEFAULTS(ewa_render_options, o);
     o.opacity = 0.7;
-    picture first = picture_draw(context, of.cloud, &of.camera, NULL, &o);
+    OWNED(picture_free) picture first = picture_draw(context, of.cloud, &of.camera, NULL, &o);
     for (int i = 0; i < 9; i++) {
-        ewa_context *other = check_context_of(threads[i % 3], masks[i / 3]);
+        OWNED(ewa_context_destroy) ewa_context *other = check_context_of(threads[i % 3], masks[i / 3]);
         const uint64_t count = ewa_cloud_point_count(of.cloud);
-        ewa_cloud *reversed = check_cloud_of(other, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *reversed = check_cloud_of(other, count);
         for (uint32_t a = 0; a < ewa_cloud_attribute_count(of.cloud); a++) {
             const ewa_attribute *from = ewa_cloud_attribute_at(of.cloud, a);
             char *to = NULL;
@@ -228,14 +220,9 @@ TEST_ON(test_same_bytes, 0) {
                 memcpy(to + k * bytes, (const char *)from->data + (count - 1 - k) * from->stride_bytes,
                        bytes);
         }
-        picture made = picture_draw(other, reversed, &of.camera, NULL, &o);
+        OWNED(picture_free) picture made = picture_draw(other, reversed, &of.camera, NULL, &o);
         assert_same(&first, &made);
-        picture_free(&made);
-        ewa_cloud_destroy(&reversed);
-        ewa_context_destroy(&other);
     }
-    picture_free(&first);
-    scene_free(&of);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -44,8 +44,8 @@ static void assert_same_level(const ewa_surfels *a, const ewa_surfels *b) {
 }
 
 TEST_ON(test_first_level_is_all_surfels, 2) {
-    ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
-    ewa_surfels *plain = surfels_of(cloud, 1), *levels = surfels_of(cloud, EWA_MAX_LEVELS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
+    OWNED(ewa_surfels_destroy) ewa_surfels *plain = surfels_of(cloud, 1), *levels = surfels_of(cloud, EWA_MAX_LEVELS);
     assert_same_level(plain, levels);
     assert_null(plain->coarser);
     assert_int_equal(level_count_of(plain), 1);
@@ -61,9 +61,6 @@ TEST_ON(test_first_level_is_all_surfels, 2) {
     assert_int_equal(stats.level, 0);
     assert_int_equal(stats.splat_count, POINTS);
     assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
-    ewa_surfels_destroy(&plain);
-    ewa_surfels_destroy(&levels);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Every pixel inside of a closed surface is opaque, at every level, from near and far, from above and aslant.
@@ -71,8 +68,8 @@ TEST_ON(test_levels_are_closed, 2) {
     static const double distances[] = {0.4, 1.3, 4}, tilts[] = {0, 40, 65};
     static uint8_t rgba8[4 * PIXELS];
     for (int kind = 0; kind < LEVEL_KINDS; kind++) {
-        ewa_cloud *cloud = level_cloud(context, (level_kind)kind, POINTS);
-        ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, (level_kind)kind, POINTS);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
         const uint32_t levels = level_count_of(surfels);
         assert_true(levels >= 3);
         for (uint32_t level = 1; level < levels; level++) {
@@ -96,8 +93,6 @@ TEST_ON(test_levels_are_closed, 2) {
             }
             assert_true(inside > PIXELS);
         }
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -123,23 +118,17 @@ TEST(test_same_bytes) {
     static const struct {
         uint32_t threads, cpu_mask;
     } ways[] = {{2, EWA_CPU_ALL}, {3, EWA_CPU_AVX2}, {1, EWA_CPU_ALL}};
-    ewa_context *plain = check_context_of(1, 0);
-    ewa_cloud *cloud = level_cloud(plain, LEVEL_WHITE, POINTS);
-    ewa_surfels *expected = surfels_of(cloud, EWA_MAX_LEVELS);
+    OWNED(ewa_context_destroy) ewa_context *plain = check_context_of(1, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(plain, LEVEL_WHITE, POINTS);
+    OWNED(ewa_surfels_destroy) ewa_surfels *expected = surfels_of(cloud, EWA_MAX_LEVELS);
     for (int i = 0; i < 3; i++) {
-        ewa_context *context = check_context_of(ways[i].threads, ways[i].cpu_mask);
-        ewa_cloud *other = shuffled(context, cloud);
-        ewa_surfels *surfels = surfels_of(other, EWA_MAX_LEVELS);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(ways[i].threads, ways[i].cpu_mask);
+        OWNED(ewa_cloud_destroy) ewa_cloud *other = shuffled(context, cloud);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(other, EWA_MAX_LEVELS);
         const ewa_surfels *a = expected, *b = surfels;
         for (; a && b; a = a->coarser, b = b->coarser) assert_same_level(a, b);
         assert_true(!a && !b);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&other);
-        ewa_context_destroy(&context);
     }
-    ewa_surfels_destroy(&expected);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&plain);
 }
 
 /// Sums over a level, weighted by area: what a picture from far away shows.
@@ -161,32 +150,30 @@ static void mean_color(const ewa_surfels *surfels, double mean[4]) {
 
 TEST_ON(test_colors_are_kept, 2) {
     for (int constant = 0; constant < 2; constant++) {
-        ewa_cloud *cloud = level_cloud(context, LEVEL_EVEN, POINTS);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, LEVEL_EVEN, POINTS);
         const uint64_t count = ewa_cloud_point_count(cloud);
         ewa_cloud_remove(cloud, EWA_COLOR);
         float *rgba = check_add(cloud, EWA_COLOR, EWA_F32, 4);
         check_random random = {5};
         for (uint64_t i = 0; i < 4 * count; i++)
             rgba[i] = constant ? (float)(i % 4 + 1) / 8 : (float)check_uniform(&random, 0, 1);
-        ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
         double first[4], mean[4];
         mean_color(surfels, first);
         for (const ewa_surfels *level = surfels->coarser; level; level = level->coarser) {
             mean_color(level, mean);
             for (int c = 0; c < 4; c++) assert_true(fabs(mean[c] - first[c]) < (constant ? 2e-4 : 0.02));
         }
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// A picture of a budget's level is that of the level itself; what is beyond the last one is the last one.
 TEST_ON(test_budget_draws_a_level, 2) {
     static uint8_t pictures[2][4 * PIXELS];
-    ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
-    ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 1.5, 30);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     static const double budgets_s[] = {1e-9, 1e-3, 1e15};
     for (int i = 0; i < 9; i++) {
         ewa_render_options options;
@@ -202,9 +189,6 @@ TEST_ON(test_budget_draws_a_level, 2) {
         assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
     }
     assert_int_equal(draw(context, surfels, &camera, 7, &(ewa_frame){.rgba8 = pictures[0]}).level, 2);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Discs at `places`, of one radius, whose normals point up.
@@ -226,14 +210,12 @@ TEST_ON(test_few_points, 2) {
     static double places[5000][3];
     for (uint32_t i = 0; i < 5000; i++) places[i][0] = i % 71, places[i][1] = i / 71, places[i][2] = 0;
     for (int i = 0; i < 12; i++) {
-        ewa_cloud *cloud = discs_at(context, counts[i], (const double(*)[3])places, 1.14f);
-        ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = discs_at(context, counts[i], (const double(*)[3])places, 1.14f);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
         const uint32_t levels = level_count_of(surfels);
         assert_true(counts[i] > 1024 || levels == 1);
         assert_true(counts[i] < 4200 || levels == 2);
         assert_true(!surfels->coarser || surfels->coarser->count >= 1024);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -242,8 +224,8 @@ TEST_ON(test_odd_places, 2) {
     enum { COUNT = 20000, HALF = COUNT / 2 };
     static double places[COUNT][3];
     for (int i = 0; i < COUNT; i++) places[i][0] = 5, places[i][1] = -3, places[i][2] = 1;
-    ewa_cloud *cloud = discs_at(context, COUNT, (const double(*)[3])places, 1);
-    ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = discs_at(context, COUNT, (const double(*)[3])places, 1);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
     assert_non_null(surfels->coarser);
     for (const ewa_surfels *level = surfels; level; level = level->coarser)
         assert_true(level->largest_sigmas_world[0] == surfels->largest_sigmas_world[0]);
@@ -267,14 +249,12 @@ TEST_ON(test_odd_places, 2) {
         for (int c = 0; c < 3; c++) places[i][c] = 1e30 * ((i * (7 + c)) % COUNT - COUNT / 2);
     cloud = discs_at(context, COUNT, (const double(*)[3])places, 1e-20f);
     surfels = surfels_of(cloud, EWA_MAX_LEVELS);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Clip lines stay where they are in the world; materials are some member's; opacities are means.
 TEST_ON(test_extras, 2) {
     enum { SIDE = 128, COUNT = SIDE * SIDE };
-    ewa_cloud *cloud = check_cloud_of(context, COUNT);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, COUNT);
     float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     float *u = check_add(cloud, EWA_TANGENT_U, EWA_F32, 3);
     float *v = check_add(cloud, EWA_TANGENT_V, EWA_F32, 3);
@@ -292,7 +272,7 @@ TEST_ON(test_extras, 2) {
         for (int c = 0; c < 4; c++) rgba[4 * i + c] = 0.5f;
         material[i] = p[1] < 60 ? 3 : 9;
     }
-    ewa_surfels *surfels = surfels_of(cloud, 3);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, 3);
     assert_non_null(surfels->coarser);
     for (const ewa_surfels *level = surfels; level; level = level->coarser) {
         uint64_t clips = 0;
@@ -320,13 +300,11 @@ TEST_ON(test_extras, 2) {
         assert_true(clips >= 6 * SIDE / (level == surfels ? 1u : 40u));
     }
     assert_int_equal(surfels->coarser->max_material, 9);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Callers of before levels have smaller structs, and no levels.
 TEST_ON(test_older_callers, 1) {
-    ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, offsetof(ewa_surfels_options, level_count));
     options.level_count = 77; // beyond its struct
@@ -336,13 +314,12 @@ TEST_ON(test_older_callers, 1) {
     ewa_surfels_options_init(&options, sizeof options);
     options.level_count = EWA_MAX_LEVELS + 1;
     assert_int_equal(ewa_surfels_create(cloud, &options, &surfels), EWA_ERROR_ARGUMENT);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Whichever allocation fails, nothing is left behind.
 TEST(test_out_of_memory) {
-    ewa_context *plain = check_context(1, NULL);
-    ewa_cloud *cloud = level_cloud(plain, LEVEL_GRID, 6000);
+    OWNED(ewa_context_destroy) ewa_context *plain = check_context(1, NULL);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(plain, LEVEL_GRID, 6000);
     for (long call = 0;; call++) {
         check_memory memory = {.calls_left = -1};
         ewa_context *context = check_context_on(1, &memory);
@@ -361,8 +338,6 @@ TEST(test_out_of_memory) {
         ewa_context_destroy(&context);
         if (status == EWA_OK) break;
     }
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&plain);
 }
 
 /// Stops the call that is told of its progress for that many times.
@@ -375,11 +350,11 @@ static bool stop_after(void *user, const char *stage, double fraction) {
 TEST(test_cancelled_frame_changes_nothing) {
     static uint8_t pictures[2][4 * PIXELS];
     int left = -1;
-    ewa_context *context = check_context_telling(2, stop_after, &left);
-    ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
-    ewa_surfels *surfels = surfels_of(cloud, 2);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_telling(2, stop_after, &left);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(cloud, 2);
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     const ewa_frame frames[2] = {{.rgba8 = pictures[0]}, {.rgba8 = pictures[1]}};
     assert_int_equal(ewa_render(renderer, surfels, &camera, NULL, &frames[0], NULL), EWA_OK);
     for (int calls = 0; calls < 4; calls++) {
@@ -391,15 +366,11 @@ TEST(test_cancelled_frame_changes_nothing) {
         assert_int_equal(ewa_render(renderer, surfels, &camera, NULL, &frames[1], NULL), EWA_OK);
         assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
     }
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// What is said of a frame is its coarsest part: 0 says that all surfels were drawn.
 TEST_ON(level_of_several_sources, 2) {
-    ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *sources[2] = {surfels_of(cloud, 1), surfels_of(cloud, EWA_MAX_LEVELS)};
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);
     static uint8_t picture[4 * PIXELS];
@@ -417,7 +388,6 @@ TEST_ON(level_of_several_sources, 2) {
     }
     ewa_renderer_destroy(&renderer);
     for (int i = 0; i < 2; i++) ewa_surfels_destroy(&sources[i]);
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -67,13 +67,12 @@ static ewa_surfels *make_surfels(ewa_cloud *cloud) {
 
 /// Surfels of float streams that lie side by side.
 static ewa_surfels *surfels_of(ewa_context *context, const numbers *of) {
-    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, POINTS);
     borrow(cloud, EWA_POSITION, EWA_F32, 3, of->position, 0);
     borrow(cloud, EWA_NORMAL, EWA_F32, 3, of->normal, 0);
     borrow(cloud, EWA_RADIUS, EWA_F32, 1, of->radius, 0);
     borrow(cloud, EWA_COLOR, EWA_U8, 3, of->color, 0);
     ewa_surfels *surfels = make_surfels(cloud);
-    ewa_cloud_destroy(&cloud);
     return surfels;
 }
 
@@ -90,19 +89,15 @@ static void assert_same_packets(const ewa_surfels *a, const ewa_surfels *b) {
 TEST(test_same_bytes_from_all_kernels) {
     static numbers of;
     make_numbers(&of);
-    ewa_context *plain = check_context_of(1, 0);
-    ewa_surfels *expected = surfels_of(plain, &of);
+    OWNED(ewa_context_destroy) ewa_context *plain = check_context_of(1, 0);
+    OWNED(ewa_surfels_destroy) ewa_surfels *expected = surfels_of(plain, &of);
     assert_int_equal(expected->left_out_count, of.spoilt_count);
     static const uint32_t masks[] = {EWA_CPU_AVX2, EWA_CPU_ALL};
     for (int i = 0; i < 2; i++) {
-        ewa_context *context = check_context_of(3, masks[i]);
-        ewa_surfels *surfels = surfels_of(context, &of);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(3, masks[i]);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(context, &of);
         assert_same_packets(expected, surfels);
-        ewa_surfels_destroy(&surfels);
-        ewa_context_destroy(&context);
     }
-    ewa_surfels_destroy(&expected);
-    ewa_context_destroy(&plain);
 }
 
 /// Records of all numbers side by side, and positions in double precision: the same packets.
@@ -120,19 +115,15 @@ TEST(test_same_bytes_from_all_layouts) {
         memcpy(records[i].color, of.color[i], sizeof records[i].color);
         records[i].radius = of.radius[i];
     }
-    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
-    ewa_surfels *expected = surfels_of(context, &of);
-    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_of(2, EWA_CPU_ALL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *expected = surfels_of(context, &of);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, POINTS);
     borrow(cloud, EWA_POSITION, EWA_F64, 3, records[0].position, sizeof records[0]);
     borrow(cloud, EWA_NORMAL, EWA_F32, 3, records[0].normal, sizeof records[0]);
     borrow(cloud, EWA_RADIUS, EWA_F32, 1, &records[0].radius, sizeof records[0]);
     borrow(cloud, EWA_COLOR, EWA_U8, 3, records[0].color, sizeof records[0]);
-    ewa_surfels *surfels = make_surfels(cloud);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(cloud);
     assert_same_packets(expected, surfels);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_surfels_destroy(&expected);
-    ewa_context_destroy(&context);
 }
 
 /// Discs by the vectorised path and surfel by surfel, which normals in double precision ask for: as equal as
@@ -143,14 +134,14 @@ TEST(test_discs_equal_surfels) {
     make_numbers(&of);
     for (int i = 0; i < POINTS; i++)
         for (int c = 0; c < 3; c++) normal[i][c] = (double)of.normal[i][c];
-    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
-    ewa_surfels *discs = surfels_of(context, &of);
-    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_of(2, EWA_CPU_ALL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *discs = surfels_of(context, &of);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, POINTS);
     borrow(cloud, EWA_POSITION, EWA_F32, 3, of.position, 0);
     borrow(cloud, EWA_NORMAL, EWA_F64, 3, normal, 0);
     borrow(cloud, EWA_RADIUS, EWA_F32, 1, of.radius, 0);
     borrow(cloud, EWA_COLOR, EWA_U8, 3, of.color, 0);
-    ewa_surfels *surfels = make_surfels(cloud);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(cloud);
     assert_int_equal(surfels->count, POINTS - of.spoilt_count);
     assert_int_equal(discs->count, surfels->count);
     for (uint32_t i = 0; i < discs->count; i++) {
@@ -164,34 +155,27 @@ TEST(test_discs_equal_surfels) {
         assert_true(fabs(vec3_length(a.axis_u) - sigma) <= 1e-6 * sigma);
         assert_true(fabs(vec3_length(a.axis_v) - sigma) <= 1e-6 * sigma);
     }
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_surfels_destroy(&discs);
-    ewa_context_destroy(&context);
 }
 
 /// The code of a normal is the nearest one, or nearly.
 TEST(test_normals_are_kept) {
     check_random random = {3};
-    ewa_context *context = check_context_of(1, EWA_CPU_ALL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     for (int turn = 0; turn < 2000; turn++) {
         float position[3] = {1, 2, 3}, normal[3], radius = 1;
         for (int c = 0; c < 3; c++) normal[c] = (float)check_uniform(&random, -1, 1);
         if (turn % 3 == 0) normal[turn % 9 / 3] = 0;
-        ewa_cloud *cloud = check_cloud_of(context, 1);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1);
         borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0);
         borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0);
         borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0);
-        ewa_surfels *surfels = make_surfels(cloud);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(cloud);
         ewa_packet_surfel surfel;
         ewa_packet_decode(surfels, (uint32_t)(0), 0, &surfel);
         ewa_vec3 given = vec3_make((double)normal[0], (double)normal[1], (double)normal[2]);
         assert_true(vec3_normalize(&given));
         assert_true(vec3_length(vec3_sub(surfel.normal, given)) < 1e-4);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The axis of a cone and the sine of its half angle; 2: it is no cone.
@@ -218,8 +202,8 @@ TEST(test_bounds_hold) {
     static numbers of;
     make_numbers(&of);
     for (int i = 0; i < POINTS; i++) of.normal[i][2] = 30 * fabsf(of.normal[i][0]); // narrow and wide cones
-    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
-    ewa_surfels *surfels = surfels_of(context, &of);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_of(2, EWA_CPU_ALL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = surfels_of(context, &of);
     int narrow = 0;
     for (uint32_t p = 0; p < surfels->packet_count; p++) {
         ewa_vec3 axis;
@@ -239,8 +223,6 @@ TEST(test_bounds_hold) {
         assert_true(sine > 1 || (widest <= sine && sine < widest + 0.003));
     }
     assert_true(narrow > POINTS / 4);
-    ewa_surfels_destroy(&surfels);
-    ewa_context_destroy(&context);
 }
 
 /// The largest sigmas are those of some surfel, of discs and of ellipses, wherever in the set it is.
@@ -248,7 +230,7 @@ TEST(test_largest_sigmas) {
     static float position[POINTS][3], axis_u[POINTS][3], axis_v[POINTS][3];
     static const uint32_t counts[] = {1, 17, 16 * 64 - 1, POINTS};
     check_random random = {11};
-    ewa_context *context = check_context_of(2, EWA_CPU_ALL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     for (int turn = 0; turn < 16; turn++) {
         const uint32_t count = counts[turn / 4];
         const double max_aspect = turn % 2 ? 5 : 1;
@@ -259,11 +241,11 @@ TEST(test_largest_sigmas) {
             memcpy(axis_v[i], (float[3]){0, 0, (float)sigma}, 12);
             if (max_aspect == 1) axis_u[i][0] = axis_v[i][2];
         }
-        ewa_cloud *cloud = check_cloud_of(context, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
         borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0);
         borrow(cloud, EWA_TANGENT_U, EWA_F32, 3, axis_u, 0);
         borrow(cloud, EWA_TANGENT_V, EWA_F32, 3, axis_v, 0);
-        ewa_surfels *surfels = make_surfels(cloud);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(cloud);
         assert_int_equal(surfels->ellipses, max_aspect > 1);
         double largest[2] = {0, 0};
         for (uint32_t i = 0; i < count; i++) {
@@ -274,10 +256,7 @@ TEST(test_largest_sigmas) {
         }
         for (int k = 0; k < 2; k++)
             assert_true(fabs(surfels->largest_sigmas_world[k] - largest[k]) <= 1e-6 * largest[k]);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -131,21 +131,19 @@ TEST(test_materials_of_sources) {
     hold_parts(SCENE_SPHERE, left_or_right, true, &options, 50, "halves of two materials");
 }
 
-TEST(test_refusals) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    scene of;
+TEST_LOGGED(test_refusals, 1) {
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 500, SIDE, SIDE, &of), EWA_OK);
     WITH_DEFAULTS(ewa_surfels_options, surfels_options);
-    ewa_surfels *three = NULL, *two = NULL;
+    OWNED(ewa_surfels_destroy) ewa_surfels *three = NULL, *two = NULL;
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &three), EWA_OK);
     surfels_options.cutoff = 2;
     assert_int_equal(ewa_surfels_create(of.cloud, &surfels_options, &two), EWA_OK);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render_add(renderer, three), EWA_ERROR_ARGUMENT);
-    assert_string_equal(log.text, "render: no frame has been begun");
+    assert_string_equal(log->text, "render: no frame has been begun");
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_ERROR_ARGUMENT);
-    picture drawn = picture_make(SIDE, SIDE), other = picture_make(SIDE, SIDE);
+    OWNED(picture_free) picture drawn = picture_make(SIDE, SIDE), other = picture_make(SIDE, SIDE);
     assert_int_equal(ewa_render_begin(NULL, &of.camera, NULL, &drawn.frame), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_begin(renderer, NULL, NULL, &drawn.frame), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_begin(renderer, &of.camera, NULL, NULL), EWA_ERROR_ARGUMENT);
@@ -153,7 +151,7 @@ TEST(test_refusals) {
     assert_int_equal(ewa_render_add(renderer, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_add(renderer, three), EWA_OK);
     assert_int_equal(ewa_render_add(renderer, two), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "a cutoff of 2 beside others with"));
+    assert_non_null(strstr(log->text, "a cutoff of 2 beside others with"));
     // What was refused leaves the frame as it was.
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
     assert_int_equal(ewa_render(renderer, three, &of.camera, NULL, &other.frame, NULL), EWA_OK);
@@ -172,13 +170,6 @@ TEST(test_refusals) {
         for (size_t c = 0; c < 4; c++)
             assert_true(drawn.frame.rgba[4 * i + c] == background[c] * (c < 3 ? 0.5f : 1));
     }
-    picture_free(&drawn);
-    picture_free(&other);
-    ewa_surfels_destroy(&three);
-    ewa_surfels_destroy(&two);
-    ewa_renderer_destroy(&renderer);
-    scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 /// Says stop at a report of progress.
@@ -226,13 +217,13 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
     options.progress = on_progress;
     options.progress_user = &self;
     if (foreign_executor) options.executor = (ewa_executor){.worker_count = 1, .run = foreign};
-    ewa_context *context = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    scene of;
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, POINTS, 512, 512, &of), EWA_OK);
-    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
-    picture first = picture_make(512, 512), other = picture_make(512, 512);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
+    OWNED(picture_free) picture first = picture_make(512, 512), other = picture_make(512, 512);
     // Of several threads the one that calls, which reports, may have got fewer tiles: then once more.
     enum { TRIES = 50 };
     for (int i = 0; i < TRIES && self.reports < 3; i++) {
@@ -256,12 +247,6 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &other.frame, NULL), EWA_OK);
     picture_expect_same(&first, &other);
     assert_true(self.from_caller);
-    picture_free(&first);
-    picture_free(&other);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_stops_between_tiles) {

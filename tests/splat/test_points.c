@@ -125,7 +125,7 @@ TEST_ON(test_against_reference, 2) {
     static float plain[4 * SIDE * SIDE], plain_depth[SIDE * SIDE], plain_normal[3 * SIDE * SIDE];
     for (int i = 0; i < 8; i++) {
         float *xyz, *normal, *radius, *u, *v, *clip;
-        ewa_cloud *cloud = make_cloud(context, COUNT, &xyz, &normal, &radius);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, COUNT, &xyz, &normal, &radius);
         check_random random = {(uint64_t)i + 1};
         const ewa_camera camera = make_camera(i % 2, 1);
         if (i >= 4) {
@@ -154,8 +154,8 @@ TEST_ON(test_against_reference, 2) {
         options.point_size_px = i < 2 ? 3.3 : 21;
         options.opacity = i % 3 ? 1 : 0.6;
         options.layers = i % 3 ? 0 : 3;
-        ewa_surfels *surfels = check_surfels(cloud, NULL);
-        ewa_renderer *renderer = check_renderer(context);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+        OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
         const ewa_frame frame = {.rgba = fast, .depth = depth, .normal = normal_out};
         const ewa_frame wanted = {.rgba = plain, .depth = plain_depth, .normal = plain_normal};
         assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
@@ -175,9 +175,6 @@ TEST_ON(test_against_reference, 2) {
         print_message("%d: %d of %d pixels differ by over 5e-3\n", i, off, seen);
         assert_true(seen > 2000 && off <= seen / 200);
         assert_true(worst_normal < 1e-4);
-        ewa_renderer_destroy(&renderer);
-        ewa_surfels_destroy(&surfels);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -185,12 +182,12 @@ TEST(test_options) {
     static const double wrong_px[] = {-1, 0.5, 0.999, 256.5, INFINITY, NAN};
     static float rgba[4 * SIDE * SIDE];
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     float *xyz, *normal, *radius;
-    ewa_cloud *cloud = make_cloud(context, 1, &xyz, &normal, &radius);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, 1, &xyz, &normal, &radius);
     xyz[0] = xyz[1] = xyz[2] = normal[0] = normal[1] = normal[2] = radius[0] = 1;
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     const ewa_camera camera = make_camera(false, 1);
     const ewa_frame frame = {.rgba = rgba};
     WITH_DEFAULTS(ewa_render_options, options);
@@ -200,10 +197,6 @@ TEST(test_options) {
         assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_ERROR_ARGUMENT);
         assert_non_null(strstr(log.text, "point_size_px"));
     }
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

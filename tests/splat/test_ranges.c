@@ -60,10 +60,9 @@ static ewa_camera camera_to(const double eye[3], const double target[3], double 
 
 static double unit_coverage_of(const ewa_cloud *cloud) {
     ewa_surfels_info info;
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
     assert_int_equal(info.left_out_count, 0);
-    ewa_surfels_destroy(&surfels);
     return info.unit_coverage;
 }
 
@@ -116,7 +115,7 @@ TEST_ON(test_one_bright_colour, 0) {
 TEST_ON(test_needles, 0) {
     enum { NEEDLES = 400 };
     check_random random = {3};
-    ewa_cloud *cloud = check_cloud_of(context, NEEDLES);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, NEEDLES);
     double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
     double *u = check_add(cloud, EWA_TANGENT_U, EWA_F64, 3);
     double *v = check_add(cloud, EWA_TANGENT_V, EWA_F64, 3);
@@ -139,7 +138,6 @@ TEST_ON(test_needles, 0) {
     options.edge_threshold = 0.1; // they cover little
     options.shading = EWA_SHADING_NONE;
     assert_close("needles", closeness_db(cloud, &camera, &options, 1), 50);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Two spheres of a centimetre, far apart, each as good as if it were alone; and so from the other's origin.
@@ -236,14 +234,12 @@ TEST_ON(test_shifts_by_powers_of_two, 0) {
     static const double shifts[][3] = {
         {1024, 0, 0}, {0x1p22, -0x1p23, 0x1p20}, {-0x1p30, 0x1p30, 0}, {0, 0x1p29, -0x1p31}};
     for (int orthographic = 0; orthographic < 2; orthographic++) {
-        picture here = draw_torus(context, HERE, 1, false, orthographic);
+        OWNED(picture_free) picture here = draw_torus(context, HERE, 1, false, orthographic);
         for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++)
             for (int by_origin = 0; by_origin < 2; by_origin++) {
-                picture there = draw_torus(context, shifts[i], 1, by_origin, orthographic);
+                OWNED(picture_free) picture there = draw_torus(context, shifts[i], 1, by_origin, orthographic);
                 assert_same_picture(&here, &there, 1);
-                picture_free(&there);
             }
-        picture_free(&here);
     }
 }
 
@@ -251,29 +247,25 @@ TEST_ON(test_shifts_by_powers_of_two, 0) {
 TEST_ON(test_units_by_powers_of_two, 0) {
     static const int powers[] = {1, -7, 20, -46, 60, -95, 98};
     for (int orthographic = 0; orthographic < 2; orthographic++) {
-        picture one = draw_torus(context, HERE, 1, false, orthographic);
+        OWNED(picture_free) picture one = draw_torus(context, HERE, 1, false, orthographic);
         for (size_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
             const double scale = ldexp(1, powers[i]);
-            picture other = draw_torus(context, HERE, scale, false, orthographic);
+            OWNED(picture_free) picture other = draw_torus(context, HERE, scale, false, orthographic);
             assert_same_picture(&one, &other, scale);
-            picture_free(&other);
         }
-        picture_free(&one);
     }
 }
 
 /// Colours that floats do not hold are told of: 8-bit pixels would hide them.
-TEST(test_broken_pixels_are_told) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
-    scene of;
+TEST_LOGGED(test_broken_pixels_are_told, 0) {
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 2000, SIDE_PX, SIDE_PX, &of), EWA_OK);
-    picture made = picture_make(SIDE_PX, SIDE_PX);
+    OWNED(picture_free) picture made = picture_make(SIDE_PX, SIDE_PX);
     ewa_frame bytes_only = {.rgba8 = made.frame.rgba8};
-    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
-    assert_int_equal(log.count, 0);
+    assert_int_equal(log->count, 0);
     // No cloud makes such a form: 5 exponent bits and the largest unit.
     for (uint32_t p = 0; p < surfels->packet_count; p++) surfels->bounds.colors[p] = 5 << 8 | 255;
     ewa_packets_sum_up(surfels);
@@ -288,15 +280,10 @@ TEST(test_broken_pixels_are_told) {
     snprintf(expected, sizeof expected, "%zu of 16384 pixels have a colour that is infinite or not a number",
              broken);
     assert_true(broken > 0);
-    assert_int_equal(log.count, 1);
-    assert_string_equal(log.text, expected);
+    assert_int_equal(log->count, 1);
+    assert_string_equal(log->text, expected);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &bytes_only, NULL), EWA_OK);
-    assert_int_equal(log.count, 2);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    picture_free(&made);
-    scene_free(&of);
-    ewa_context_destroy(&context);
+    assert_int_equal(log->count, 2);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -40,12 +40,12 @@ static double sphere_depth(const ewa_camera *camera, double x_px, double y_px, d
 /// antialiased.
 TEST_ON(test_sphere, 0) {
     enum { WIDTH = 256 };
-    scene made;
+    OWNED(scene_free) scene made;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 20000, WIDTH, WIDTH, &made), EWA_OK);
     WITH_DEFAULTS(ewa_surfels_options, surfels);
     surfels.radius_scale = 1.2; // no gap of the jittered points is below tau
     made.unit_coverage *= 1.2 * 1.2;
-    picture shown = picture_of_scene(&made, &surfels, NULL);
+    OWNED(picture_free) picture shown = picture_of_scene(&made, &surfels, NULL);
     const double spacing = sqrt(4 * PI / 20000), sigma = 1.2 * 0.6 * spacing;
     int inside_count = 0, partial = 0;
     double depth_error = 0, normal_error = 0, mean_coverage = 0;
@@ -81,14 +81,12 @@ TEST_ON(test_sphere, 0) {
     // Discs stand off the sphere by up to (F sigma)^2 / 2, seen at an angle, and mix within the tolerance.
     assert_true(depth_error < 2 * sigma * sigma / 0.3);
     assert_true(normal_error < 2 * sigma);
-    picture_free(&shown);
-    scene_free(&made);
 }
 
 /// A plane of coplanar discs, oblique to the view: its depth is exact, its normal too, in both projections
 /// and kernels.
 TEST_ON(test_plane_depth, 0) {
-    scene made = picture_small_scene(context, SCENE_PLANE);
+    OWNED(scene_free) scene made = picture_small_scene(context, SCENE_PLANE);
     const double eye[3] = {0.3, -1.1, 0.8}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&made.camera, eye, target, up), EWA_OK);
     for (int i = 0; i < 4; i++) {
@@ -96,7 +94,7 @@ TEST_ON(test_plane_depth, 0) {
         ewa_render_options options = default_options();
         options.kernel = i % 2 ? EWA_KERNEL_AFFINE : EWA_KERNEL_PERSPECTIVE;
         options.prefilter_px = 0;
-        picture shown = picture_of_scene(&made, NULL, &options);
+        OWNED(picture_free) picture shown = picture_of_scene(&made, NULL, &options);
         const double *m = made.camera.world_to_camera;
         int covered = 0;
         for (int y = 0; y < SIZE; y++)
@@ -117,9 +115,7 @@ TEST_ON(test_plane_depth, 0) {
                 covered++;
             }
         assert_true(covered > SIZE * SIZE / 3);
-        picture_free(&shown);
     }
-    scene_free(&made);
 }
 
 /// A floor of large discs through the eye plane covers everything below the horizon, with its depth. F, h and
@@ -128,7 +124,7 @@ TEST_ON(test_plane_depth, 0) {
 /// rows have alpha 0.81.
 TEST_ON(test_floor_through_the_eye, 0) {
     enum { ROWS = 40, COUNT = ROWS * ROWS };
-    scene made = {.unit_coverage = 0.3};
+    OWNED(scene_free) scene made = {.unit_coverage = 0.3};
     float position[COUNT][3], radius[COUNT];
     static float normal[COUNT][3];
     for (int i = 0; i < COUNT; i++) {
@@ -157,7 +153,7 @@ TEST_ON(test_floor_through_the_eye, 0) {
         options.edge_threshold = 0.6;
         WITH_DEFAULTS(ewa_surfels_options, surfels);
         surfels.cutoff = 2;
-        picture shown = picture_of_scene(&made, &surfels, &options);
+        OWNED(picture_free) picture shown = picture_of_scene(&made, &surfels, &options);
         // From 5 pixels below the horizon (2.5 units away, where the grid still is wide enough) to the lower
         // edge, whose rays meet the floor at z = 0.16 below the nearest discs.
         for (int y = 25; y < SIZE; y++)
@@ -171,16 +167,14 @@ TEST_ON(test_floor_through_the_eye, 0) {
         if (kernel == EWA_KERNEL_PERSPECTIVE) assert_int_equal(holes, 0); // the affine one may tear (PAS 1)
         for (int y = 0; y < 17; y++)
             for (int x = 0; x < SIZE; x++) assert_true(shown.frame.rgba[4 * (y * SIZE + x) + 3] == 0);
-        picture_free(&shown);
     }
-    scene_free(&made);
 }
 
 /// One disc in front of the middle of a picture, radius and colour given; the frame's planes by hand.
 TEST_ON(test_resolve, 1) {
     const float position[3] = {0, 0, 2}, normal[3] = {0, 0.6f, -0.8f}, radius = 4,
                 color[4] = {0.5f, 0.25f, 1, 1};
-    scene made = {.unit_coverage = 0.5};
+    OWNED(scene_free) scene made = {.unit_coverage = 0.5};
     assert_int_equal(ewa_cloud_create(context, 1, &made.cloud), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
@@ -203,7 +197,7 @@ TEST_ON(test_resolve, 1) {
         if (i == 1) chosen.edge_antialiasing = false, a = 1;
         if (i == 2) picture_set_light(&chosen, 0, 5, 0), shade = 0.2 + 0.8 * 0.6;
         if (i == 3) picture_set_light(&chosen, 0, 0, 1), shade = 0.2; // from behind
-        picture shown = picture_of_scene(&made, NULL, &chosen);
+        OWNED(picture_free) picture shown = picture_of_scene(&made, NULL, &chosen);
         const ewa_frame *frame = &shown.frame;
         assert_true(fabs((double)frame->coverage[0] - q / 0.5) < 1e-6);
         assert_true(fabs((double)frame->depth[0] - 2) < 1e-6);
@@ -219,12 +213,11 @@ TEST_ON(test_resolve, 1) {
         }
         assert_true(fabs((double)frame->rgba[3] - total) < 1e-6);
         assert_int_equal(frame->rgba8[3], (int)(255 * total + 0.5));
-        picture_free(&shown);
     }
     options.shading = EWA_SHADING_NONE;
     options.passes = 1;
     options.edge_threshold = 2; // means nothing here
-    picture shown = picture_of_scene(&made, NULL, &options);
+    OWNED(picture_free) picture shown = picture_of_scene(&made, NULL, &options);
     for (int c = 0; c < 3; c++) assert_true(shown.frame.rgba[c] == color[c]);
     assert_true(shown.frame.rgba[3] == 1 && shown.frame.coverage[0] == 1);
     picture_free(&shown);
@@ -240,8 +233,6 @@ TEST_ON(test_resolve, 1) {
     assert_true(shown.frame.rgba[3] == 0.505f && shown.frame.rgba[2] == 0.505f &&
                 isinf(shown.frame.depth[0]));
     assert_true(shown.frame.coverage[0] == 0 && shown.frame.normal[2] == 0);
-    picture_free(&shown);
-    scene_free(&made);
 }
 
 /// A disc in front hides one behind it unless both lie within the tolerance.
@@ -256,7 +247,7 @@ TEST_ON(test_visibility, 1) {
     } cases[] = {{10.4f, 1, true}, {10.6f, 1, false}, {10.6f, 2, true}, {10.1f, 0, false}, {10, 0, true}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const float position[6] = {0, 0, 10, 0, 0, cases[i].z};
-        scene made = {.unit_coverage = 0.1};
+        OWNED(scene_free) scene made = {.unit_coverage = 0.1};
         assert_int_equal(ewa_cloud_create(context, 2, &made.cloud), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
@@ -267,33 +258,29 @@ TEST_ON(test_visibility, 1) {
         made.camera.cx_px = made.camera.cy_px = 0.5;
         ewa_render_options options = default_options();
         options.tolerance = cases[i].tolerance;
-        picture shown = picture_of_scene(&made, NULL, &options);
+        OWNED(picture_free) picture shown = picture_of_scene(&made, NULL, &options);
         assert_true((shown.frame.rgba[2] > 0.4f) == cases[i].shown);
         assert_true(shown.frame.rgba[0] > 0.4f);
-        picture_free(&shown);
-        scene_free(&made);
     }
 }
 
 /// Arguments that are refused, planes that are not wanted, clouds of nothing.
-TEST(test_arguments) {
-    check_log log = {0};
-    ewa_context *context = check_context(0, &log);
-    scene made = picture_small_scene(context, SCENE_SPHERE);
+TEST_LOGGED(test_arguments, 0) {
+    OWNED(scene_free) scene made = picture_small_scene(context, SCENE_SPHERE);
     const ewa_frame nothing = {.rgba = NULL};
     assert_int_equal(ewa_render_reference(NULL, NULL, 1, &made.camera, NULL, &nothing), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, NULL, NULL, &nothing), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 0, &made.camera, NULL, &nothing),
                      EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "unit_coverage"));
+    assert_non_null(strstr(log->text, "unit_coverage"));
     ewa_camera broken = made.camera;
     broken.fx_px = 0;
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &broken, NULL, &nothing), EWA_ERROR_ARGUMENT);
     ewa_cloud_remove(made.cloud, EWA_RADIUS);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &nothing),
                      EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "radius"));
+    assert_non_null(strstr(log->text, "radius"));
     scene_free(&made);
     made = picture_small_scene(context, SCENE_SPHERE);
     assert_int_equal(ewa_render_reference(made.cloud, NULL, 1, &made.camera, NULL, &nothing), EWA_OK);
@@ -302,12 +289,9 @@ TEST(test_arguments) {
     assert_int_equal(ewa_cloud_add(made.cloud, EWA_POSITION, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_add(made.cloud, EWA_NORMAL, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_add(made.cloud, EWA_RADIUS, EWA_F32, 1, NULL), EWA_OK);
-    picture shown = picture_of_scene(&made, NULL, NULL);
+    OWNED(picture_free) picture shown = picture_of_scene(&made, NULL, NULL);
     for (size_t i = 0; i < SIZE * SIZE; i++)
         assert_true(shown.frame.rgba[4 * i + 3] == 0 && isinf(shown.frame.depth[i]));
-    picture_free(&shown);
-    scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
@@ -350,13 +334,14 @@ TEST(test_failures) {
 
 /// The comparison finds what differs and the mask where it may.
 TEST_ON(test_comparison, 0) {
-    scene made = picture_small_scene(context, SCENE_TORUS);
+    OWNED(scene_free) scene made = picture_small_scene(context, SCENE_TORUS);
     ewa_cloud_remove(made.cloud, EWA_CURVATURE); // splats at contours move by their size, not at its edges alone
     for (uint32_t passes = 1; passes <= 3; passes += 2) {
         ewa_render_options options = default_options();
         options.passes = passes;
         uint8_t mask[SIZE * SIZE];
         picture_mark_edges(&made, NULL, &options, 1e-6, 1e-7, mask);
+        OWNED(picture_free)
         picture a = picture_of_scene(&made, NULL, &options), b = picture_of_scene(&made, NULL, &options);
         picture_report report = picture_compare(&a, &b, 1e-3, mask);
         assert_int_equal(report.over_count, 0);
@@ -378,10 +363,7 @@ TEST_ON(test_comparison, 0) {
         assert_true(report.over_count > 0);
         assert_int_equal(report.edge_over_count, report.over_count);
         assert_true(report.edge_count < SIZE * SIZE / 4);
-        picture_free(&a);
-        picture_free(&b);
     }
-    scene_free(&made);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -92,7 +92,7 @@ static void assert_same(const char *name, const picture *a, const picture *b, do
 TEST_ON(test_constant_color, 0) {
     const float color[3] = {0.25f, 0.5f, 0.75f};
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
-        scene made = picture_small_scene(context, (scene_kind)(kind / 2));
+        OWNED(scene_free) scene made = picture_small_scene(context, (scene_kind)(kind / 2));
         ewa_cloud *plain = copy_surfels(made.cloud, &IDENTITY, 1, NOWHERE, 1, color);
         ewa_cloud_destroy(&made.cloud);
         made.cloud = plain;
@@ -100,7 +100,7 @@ TEST_ON(test_constant_color, 0) {
         options.shading = EWA_SHADING_NONE;
         options.edge_antialiasing = false;
         options.passes = kind % 2 ? 1 : 3;
-        picture shown = picture_of_scene(&made, NULL, &options);
+        OWNED(picture_free) picture shown = picture_of_scene(&made, NULL, &options);
         uint64_t covered = 0;
         for (size_t i = 0; i < SIZE * SIZE; i++) {
             const bool there = shown.frame.coverage[i] > 0;
@@ -113,19 +113,17 @@ TEST_ON(test_constant_color, 0) {
             assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - (there ? 1 : 0)) < 1e-5f);
         }
         assert_true(covered > SIZE * SIZE / 8);
-        picture_free(&shown);
-        scene_free(&made);
     }
 }
 
 /// Moving the principal point by whole pixels moves the picture.
 TEST_ON(test_shift, 0) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene made = picture_small_scene(context, (scene_kind)kind);
-        picture before = picture_of_scene(&made, NULL, NULL);
+        OWNED(scene_free) scene made = picture_small_scene(context, (scene_kind)kind);
+        OWNED(picture_free) picture before = picture_of_scene(&made, NULL, NULL);
         made.camera.cx_px += 7;
         made.camera.cy_px -= 5;
-        picture after = picture_of_scene(&made, NULL, NULL);
+        OWNED(picture_free) picture after = picture_of_scene(&made, NULL, NULL);
         uint64_t different = 0;
         for (int y = 5; y < SIZE; y++)
             for (int x = 0; x < SIZE - 7; x++) {
@@ -135,16 +133,13 @@ TEST_ON(test_shift, 0) {
                 different += !(fabsf(before.frame.coverage[a] - after.frame.coverage[b]) < 1e-6f);
             }
         assert_int_equal(different, 0);
-        picture_free(&before);
-        picture_free(&after);
-        scene_free(&made);
     }
 }
 
 /// Order of the points, number of threads, rotation and place of the world, scale of the camera: the same
 /// picture.
 TEST(test_invariance) {
-    ewa_context *context = check_context(0, NULL), *lonely = check_context(1, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL), *lonely = check_context(1, NULL);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)(kind / 2)), other = made;
         ewa_render_options options = default_options();
@@ -206,23 +201,21 @@ TEST(test_invariance) {
         picture_free(&wanted);
         scene_free(&made);
     }
-    ewa_context_destroy(&lonely);
-    ewa_context_destroy(&context);
 }
 
 /// A quarter turn of the camera around its view turns the picture.
 TEST_ON(test_quarter_turn, 0) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene made = picture_small_scene(context, (scene_kind)kind);
+        OWNED(scene_free) scene made = picture_small_scene(context, (scene_kind)kind);
         made.camera.cx_px = made.camera.cy_px = SIZE / 2.0;
-        picture before = picture_of_scene(&made, NULL, NULL);
+        OWNED(picture_free) picture before = picture_of_scene(&made, NULL, NULL);
         double *m = made.camera.world_to_camera;
         for (int c = 0; c < 4; c++) { // (x, y) -> (-y, x)
             const double x = m[c];
             m[c] = -m[4 + c];
             m[4 + c] = x;
         }
-        picture after = picture_of_scene(&made, NULL, NULL);
+        OWNED(picture_free) picture after = picture_of_scene(&made, NULL, NULL);
         uint64_t different = 0;
         for (int y = 0; y < SIZE; y++)
             for (int x = 0; x < SIZE; x++)
@@ -230,9 +223,6 @@ TEST_ON(test_quarter_turn, 0) {
                     different += !(fabsf(before.frame.rgba[4 * (y * SIZE + x) + c] -
                                          after.frame.rgba[4 * (x * SIZE + SIZE - 1 - y) + c]) < 1e-6f);
         assert_int_equal(different, 0);
-        picture_free(&before);
-        picture_free(&after);
-        scene_free(&made);
     }
 }
 
@@ -245,7 +235,7 @@ TEST_ON(test_coincident_points, 1) {
         float color[2][3];
         memcpy(color[0], colors[order], sizeof color[0]);
         memcpy(color[1], colors[!order], sizeof color[1]);
-        scene made = {.unit_coverage = 1};
+        OWNED(scene_free) scene made = {.unit_coverage = 1};
         assert_int_equal(ewa_cloud_create(context, 2, &made.cloud), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(made.cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
@@ -256,11 +246,9 @@ TEST_ON(test_coincident_points, 1) {
         made.camera.cx_px = made.camera.cy_px = 4;
         ewa_render_options options = default_options();
         options.passes = 1;
-        picture drawn = picture_of_scene(&made, NULL, &options);
+        OWNED(picture_free) picture drawn = picture_of_scene(&made, NULL, &options);
         memcpy(shown[order], &drawn.frame.rgba[0], sizeof shown[order]);
         assert_true(drawn.frame.coverage[0] == 1);
-        picture_free(&drawn);
-        scene_free(&made);
     }
     assert_memory_equal(shown[0], shown[1], sizeof shown[0]);
     assert_true(shown[0][3] == 1 && shown[0][0] + shown[0][1] > 0.9f);

@@ -122,8 +122,8 @@ TEST(test_options_hold) {
 
 /// Draws a small scene by some threads and instructions; it has to be what the first such call has drawn.
 static void draw_same(scene_kind kind, uint32_t threads, uint32_t mask, const ewa_render_options *options, picture *first) {
-    ewa_context *context = check_context_of(threads, mask);
-    scene of;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_of(threads, mask);
+    OWNED(scene_free) scene of;
     // Small, because plain C under sanitizers takes its time.
     assert_int_equal(scene_make(context, kind, POINTS / 4, 101, 97, &of), EWA_OK);
     picture made = picture_draw(context, of.cloud, &of.camera, NULL, options);
@@ -133,8 +133,6 @@ static void draw_same(scene_kind kind, uint32_t threads, uint32_t mask, const ew
     } else {
         *first = made;
     }
-    scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_same_bytes_of_every_kernel) {
@@ -144,10 +142,9 @@ TEST(test_same_bytes_of_every_kernel) {
         for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
             WITH_DEFAULTS(ewa_render_options, options);
             options.kernel = (ewa_kernel)kernel;
-            picture first = {0};
+            OWNED(picture_free) picture first = {0};
             for (size_t i = 0; i < sizeof masks / sizeof masks[0]; i++)
                 draw_same(kinds[k], 1 + (uint32_t)i, masks[i], &options, &first);
-            picture_free(&first);
         }
     }
 }
@@ -157,14 +154,14 @@ TEST(test_same_bytes_of_every_kernel) {
 TEST_ON(test_source_is_affine, 0) {
     double worst = 0;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene of;
+        OWNED(scene_free) scene of;
         WITH_DEFAULTS(ewa_render_options, options);
         options.edge_layers = 1;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
         options.kernel = EWA_KERNEL_AFFINE;
         picture affine = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         options.kernel = EWA_KERNEL_SOURCE;
-        picture source = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        OWNED(picture_free) picture source = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         uint8_t *mask = calloc(SIDE_PX, SIDE_PX);
         of.unit_coverage = 1;
         picture_mark_edges(&of, NULL, &options, 1e-4, 1e-4, mask);
@@ -175,8 +172,6 @@ TEST_ON(test_source_is_affine, 0) {
         worst = fmax(worst, fmax(report.color, fmax(report.depth, report.coverage)));
         free(mask);
         picture_free(&affine);
-        picture_free(&source);
-        scene_free(&of);
     }
     print_message("largest difference: %.2g\n", worst);
     assert_true(worst < 1e-4);
@@ -188,10 +183,9 @@ TEST(test_same_bytes_on_all_threads_and_instruction_sets) {
     } runs[] = {{1, EWA_CPU_ALL},  {2, EWA_CPU_ALL},  {7, EWA_CPU_ALL},
                 {32, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        picture first = {0};
+        OWNED(picture_free) picture first = {0};
         for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++)
             draw_same((scene_kind)kind, runs[i].threads, runs[i].mask, NULL, &first);
-        picture_free(&first);
     }
 }
 
@@ -216,25 +210,21 @@ static ewa_cloud *reordered(const ewa_cloud *cloud, uint64_t step) {
 
 TEST_ON(test_order_of_points_does_not_matter, 0) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene of;
+        OWNED(scene_free) scene of;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
         uint64_t step = 1009; // a prime that does not divide the count
         while (ewa_cloud_point_count(of.cloud) % step == 0) step += 2;
-        ewa_cloud *same = reordered(of.cloud, 1), *other = reordered(of.cloud, step);
+        OWNED(ewa_cloud_destroy) ewa_cloud *same = reordered(of.cloud, 1), *other = reordered(of.cloud, step);
+        OWNED(picture_free)
         picture a = picture_draw(context, same, &of.camera, NULL, NULL),
                 b = picture_draw(context, other, &of.camera, NULL, NULL);
         picture_expect_same(&a, &b);
-        picture_free(&a);
-        picture_free(&b);
-        ewa_cloud_destroy(&same);
-        ewa_cloud_destroy(&other);
-        scene_free(&of);
     }
 }
 
 /// More splats in a tile than are kept from pass to pass: the runs are set up again, with the same result.
 TEST_ON(test_dense_tile_holds, 0) {
-    scene of;
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, 300000, 48, 40, &of), EWA_OK);
     ewa_surfels *surfels = check_surfels(of.cloud, NULL);
     ewa_surfels_info info;
@@ -243,6 +233,7 @@ TEST_ON(test_dense_tile_holds, 0) {
     ewa_surfels_destroy(&surfels);
     WITH_DEFAULTS(ewa_render_options, whole);
     whole.supersampling = 1;
+    OWNED(picture_free)
     picture reference = picture_of_scene(&of, NULL, &whole),
             fast = picture_draw(context, of.cloud, &of.camera, NULL, &whole);
     uint8_t mask[48 * 40];
@@ -250,27 +241,22 @@ TEST_ON(test_dense_tile_holds, 0) {
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, mask);
     picture_print("dense tile", &report);
     assert_true(report.over_count <= 10 && report.color < GRAZING_ERROR);
-    picture_free(&reference);
-    picture_free(&fast);
-    scene_free(&of);
 }
 
 TEST_ON(test_empty_and_lonely, 0) {
     for (uint64_t count = 0; count < 2; count++) {
         const float position[3] = {0, 0, 5}, normal[3] = {0, 0, -1}, radius = 1;
-        ewa_cloud *cloud = check_cloud_of(context, count);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0), EWA_OK);
         ewa_camera camera = check_camera(65, 63);
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
-        picture made = picture_draw(context, cloud, &camera, NULL, NULL);
+        OWNED(picture_free) picture made = picture_draw(context, cloud, &camera, NULL, NULL);
         const size_t middle = 31 * 65 + 32;
         assert_true(made.frame.rgba[4 * middle + 3] == (float)count); // a lone disc is opaque in its middle
         assert_true(made.frame.rgba[3] == 0 && isinf(made.frame.depth[0]));
         if (count) assert_true(fabsf(made.frame.depth[middle] - 5) < 1e-5f);
-        picture_free(&made);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -294,7 +280,7 @@ TEST_ON(test_scales_beyond_floats, 1) {
     WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_SPHERE;
     generate.point_count = 40000; // so that a tile has several runs
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
     for (size_t i = 0; i < 2 * sizeof scales / sizeof scales[0]; i++) {
         ewa_camera camera = check_camera(200, 150);
@@ -304,10 +290,8 @@ TEST_ON(test_scales_beyond_floats, 1) {
         memcpy(camera.world_to_camera, rows, sizeof rows);
         WITH_DEFAULTS(ewa_render_options, options);
         options.kernel = EWA_KERNEL_AFFINE; // whose packets are not culled by the sides of the view
-        picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
-        picture_free(&drawn);
+        OWNED(picture_free) picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Without a prefilter, splats that are nearly lines are of a few pixels, not beyond all numbers.
@@ -321,7 +305,7 @@ TEST_ON(test_seen_from_the_edge, 1) {
             // From half a degree down to where single precision sees no area, along slanted lines.
             const double tilt = i ? 0.01 * pow(10, -6.0 * i / DISCS) : 1.2, roll = 0.3 + 1.0 * i / DISCS;
             void *position = NULL, *normal = NULL, *radius = NULL, *color = NULL;
-            ewa_cloud *cloud = check_cloud_of(context, 1);
+            OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1);
             assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color), EWA_OK);
             assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
             assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
@@ -336,7 +320,7 @@ TEST_ON(test_seen_from_the_edge, 1) {
             assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
             WITH_DEFAULTS(ewa_render_options, options);
             options.kernel = kernels[k], options.prefilter_px = 0, options.shading = EWA_SHADING_NONE;
-            picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
+            OWNED(picture_free) picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
             for (size_t at = 0; at < WIDTH_PX * WIDTH_PX; at++) {
                 const float *rgba = &drawn.frame.rgba[4 * at];
                 assert_true(rgba[3] >= 0 && rgba[3] <= 1);
@@ -345,8 +329,6 @@ TEST_ON(test_seen_from_the_edge, 1) {
                 covered += rgba[3] > 0;
             }
             if (i == 0) whole = most;
-            picture_free(&drawn);
-            ewa_cloud_destroy(&cloud);
         }
         print_message("kernel %d: %d pixels, coverage %g and %g\n", (int)kernels[k], covered, (double)whole,
                       (double)most);
@@ -355,7 +337,7 @@ TEST_ON(test_seen_from_the_edge, 1) {
 }
 
 TEST_ON(test_one_pass_shows_one_surfel, 0) {
-    scene of;
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_ELLIPSES, 600, 96, 96, &of), EWA_OK);
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
@@ -363,7 +345,7 @@ TEST_ON(test_one_pass_shows_one_surfel, 0) {
     int others[2] = {0, 0}, covered = 0;
     for (int pass = 0; pass < 2; pass++) {
         options.passes = pass == 0 ? 1 : 3;
-        picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
+        OWNED(picture_free) picture made = picture_draw(context, of.cloud, &of.camera, NULL, &options);
         for (size_t i = 0; i < 96 * 96; i++) {
             const float *rgba = &made.frame.rgba[4 * i];
             if (rgba[3] == 0) continue;
@@ -372,12 +354,10 @@ TEST_ON(test_one_pass_shows_one_surfel, 0) {
             covered += pass == 0;
             others[pass] += !is_some_surfel(of.cloud, rgba);
         }
-        picture_free(&made);
     }
     print_message("%d pixels; of a mixed colour with one pass %d, with three %d\n", covered, others[0],
                   others[1]);
     assert_true(covered > 1000 && others[0] == 0 && others[1] > covered / 20);
-    scene_free(&of);
 }
 
 TEST(test_every_failing_allocation_is_clean) {
@@ -413,21 +393,17 @@ TEST(test_every_failing_allocation_is_clean) {
 /// A warm renderer allocates nothing.
 TEST(test_warm_frames_allocate_nothing) {
     check_memory memory = {.calls_left = -1};
-    ewa_context *context = check_context_on(0, &memory);
-    scene of;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_on(0, &memory);
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
     picture made = picture_make(SIDE_PX, SIDE_PX);
-    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
     const long calls = memory.calls_left;
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
     assert_int_equal(memory.calls_left, calls);
     picture_free(&made);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

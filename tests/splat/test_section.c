@@ -152,7 +152,7 @@ TEST_ON(test_grid, 2) {
                                        {0, -1e300, 0, 2e300}, {0, 1e-320, 0, 0}};
     static drawn whole, to;
     const double spacing = 1;
-    ewa_cloud *cloud = make_grid(context, spacing, none, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_grid(context, spacing, none, 0);
     for (int way = 0; way < 2 * 2; way++)
         for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) {
             const ewa_camera camera = make_camera(way & 1, spacing, none);
@@ -167,14 +167,13 @@ TEST_ON(test_grid, 2) {
                 check_cut(&options, spacing, &whole, &to);
             assert_true(to.stats.culled_count > 0 && to.stats.culled_count < GRID * GRID);
         }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A box in the middle of a grid; nothing of one beside it.
 TEST_ON(test_box, 2) {
     static const double none[3] = {0, 0, 0};
     static drawn to;
-    ewa_cloud *cloud = make_grid(context, 1, none, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_grid(context, 1, none, 0);
     const ewa_camera camera = make_camera(false, 1, none);
     ewa_render_options options = plain_options();
     add_box(&options, -3, 3);
@@ -187,7 +186,6 @@ TEST_ON(test_box, 2) {
     assert_true(to.stats.culled_count == to.stats.splat_count && to.stats.drawn_count == 0);
     for (size_t i = 0; i < SIDE * SIDE; i++)
         assert_true(to.rgba[4 * i] == 0.25f && to.rgba[4 * i + 3] == 0.5f && isinf(to.depth[i]));
-    ewa_cloud_destroy(&cloud);
 }
 
 /// The scenes of the other tests, cut by some planes that are not along an axis.
@@ -256,7 +254,7 @@ TEST(test_pipeline_holds) {
 TEST_ON(test_untouched, 2) {
     static drawn whole, cut;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        scene of;
+        OWNED(scene_free) scene of;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE, SIDE, &of), EWA_OK);
         ewa_render_options options = plain_options();
         draw(context, of.cloud, &of.camera, &options, &whole);
@@ -270,7 +268,6 @@ TEST_ON(test_untouched, 2) {
             for (int c = 0; c < 4; c++) options.section_planes[k][c] *= k == 0 ? 0x1p-900 : 0x1p30;
         draw(context, of.cloud, &of.camera, &options, &cut);
         assert_same(&whole, &cut, scene_name((scene_kind)kind));
-        scene_free(&of);
     }
 }
 
@@ -282,15 +279,13 @@ TEST(test_threads_and_instructions) {
     static drawn first, other;
     for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++)
         for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
-            ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
-            scene of;
+            OWNED(ewa_context_destroy) ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
+            OWNED(scene_free) scene of;
             assert_int_equal(scene_make(context, kinds[kind], POINTS, SIDE, SIDE, &of), EWA_OK);
             ewa_render_options options = plain_options();
             add_oblique(&options, &of, 2);
             draw(context, of.cloud, &of.camera, &options, i ? &other : &first);
             if (i) assert_same(&first, &other, scene_name(kinds[kind]));
-            scene_free(&of);
-            ewa_context_destroy(&context);
         }
 }
 
@@ -304,7 +299,7 @@ TEST_ON(test_order_and_origin, 2) {
     add_plane(&options, 1, 0.5, 0, 0.375);
     add_plane(&options, 0, -1, 0, 1.5);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
-        ewa_cloud *cloud = make_grid(context, spacing, none, 0);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_grid(context, spacing, none, 0);
         ewa_camera camera = make_camera(orthographic, spacing, none);
         draw(context, cloud, &camera, &no_planes, &whole);
         draw(context, cloud, &camera, &options, &first);
@@ -322,7 +317,6 @@ TEST_ON(test_order_and_origin, 2) {
             for (int c = 0; c < 3; c++) moved.section_planes[k][3] -= moved.section_planes[k][c] * far[c];
         draw(context, cloud, &camera, &moved, &other);
         assert_same(&first, &other, "origin");
-        ewa_cloud_destroy(&cloud);
     }
 }
 
@@ -332,9 +326,8 @@ TEST_ON(test_sources, 2) {
     static drawn one, two, other;
     ewa_surfels *surfels[2] = {NULL, NULL};
     for (int i = 0; i < 2; i++) {
-        ewa_cloud *cloud = make_grid(context, 1, i ? beside : none, 0);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_grid(context, 1, i ? beside : none, 0);
         assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels[i]), EWA_OK);
-        ewa_cloud_destroy(&cloud);
     }
     const ewa_camera camera = make_camera(true, 1, none);
     ewa_render_options options = plain_options();
@@ -356,8 +349,8 @@ TEST(test_bad_planes) {
         {0, 0, 0, 1}, {NAN, 0, 0, 1}, {1, INFINITY, 0, 0}, {1, 0, 0, -INFINITY}, {0, 0, 1, NAN}};
     static uint8_t rgba8[4 * SIDE * SIDE];
     check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     const ewa_camera camera = make_camera(true, 1, none);
     const ewa_frame frame = {.rgba8 = rgba8};
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) {
@@ -373,8 +366,6 @@ TEST(test_bad_planes) {
         assert_int_equal(ewa_render_begin(renderer, &camera, &options, &frame), EWA_ERROR_ARGUMENT);
         assert_non_null(strstr(log.text, "section_count"));
     }
-    ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 static double now_s(void) {
@@ -386,9 +377,9 @@ static double now_s(void) {
 /// What a box saves, to be read: nothing is asserted of times.
 TEST_ON(test_time_is_printed, 1) {
     static drawn to;
-    scene of;
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 60000, SIDE, SIDE, &of), EWA_OK);
-    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(of.cloud, NULL);
     const ewa_surfels *const sources[] = {surfels};
     double min_s[3] = {INFINITY, INFINITY, INFINITY};
     uint64_t culled[3];
@@ -405,8 +396,6 @@ TEST_ON(test_time_is_printed, 1) {
     print_message("whole %.2f ms, in a box %.2f ms, half %.2f ms\n", 1e3 * min_s[0], 1e3 * min_s[1],
                   1e3 * min_s[2]);
     assert_true(culled[1] == culled[0] && culled[2] > culled[0] + 20000);
-    ewa_surfels_destroy(&surfels);
-    scene_free(&of);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

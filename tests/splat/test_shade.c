@@ -37,14 +37,14 @@ static ewa_vec3 unit(double x, double y, double z) {
 /// A sphere lit from one direction shows the formula of ewa_material at every pixel that is not at its edge,
 /// and its brightest pixel where N is H.
 TEST_ON(test_highlight_on_a_sphere, 0) {
-    ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_material material = {.ambient = 0.1f, .diffuse = 0.5f, .specular = 0.8f, .shininess = 40};
     const ewa_vec3 L = unit(2, 1, 2);
     for (int run = 0; run < 4; run++) {
         const ewa_camera camera = shade_camera(SIDE_PX, EYE, 32, run % 2 ? 2.2 : 0);
         ewa_render_options options = phong_options(&material);
         picture_set_light(&options, 4, 2, 4);
-        picture shown = draw(context, run / 2, cloud, &camera, &options);
+        OWNED(picture_free) picture shown = draw(context, run / 2, cloud, &camera, &options);
         double worst = 0, brightest = 0, wanted = 0;
         uint32_t at[2] = {0, 0}, wanted_at[2] = {0, 0};
         for (uint32_t y = 0; y < SIDE_PX; y++)
@@ -73,14 +73,12 @@ TEST_ON(test_highlight_on_a_sphere, 0) {
         assert_true(worst < 0.025);
         assert_true(fabs(brightest - 0.85) < 0.005);
         assert_true(abs((int)at[0] - (int)wanted_at[0]) <= 1 && abs((int)at[1] - (int)wanted_at[1]) <= 1);
-        picture_free(&shown);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Lights add up, each with its colour, and a zero direction is the eye's.
 TEST_ON(test_lights_add_up, 0) {
-    ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_camera camera = shade_camera(SIDE_PX, EYE, 32, 0);
     for (int run = 0; run < 4; run++) {
         ewa_render_options options = phong_options(NULL);
@@ -115,22 +113,21 @@ TEST_ON(test_lights_add_up, 0) {
         assert_true(fabsf(alone[0].frame.rgba[middle + 2]) < 1e-6f);
         for (int i = 0; i < 3; i++) picture_free(&alone[i]);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A mirror sphere shows the light of the direction that it mirrors, for an environment any way up.
 TEST_ON(test_mirror_sphere, 0) {
     static const double ups[4][3] = {{0, 1, 0}, {0, 0, 2}, {0, -1, 0}, {1, 2, -1}};
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
-    ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
-    ewa_environment *environment = shade_environment(context, 128, shade_linear_light);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
+    OWNED(ewa_environment_destroy) ewa_environment *environment = shade_environment(context, 128, shade_linear_light);
     for (int run = 0; run < 8; run++) {
         const double *up = ups[run / 2];
         const ewa_camera camera = shade_camera(SIDE_PX, EYE, 32, run == 3 ? 2.2 : 0);
         ewa_render_options options = phong_options(&mirror);
         options.environment = environment;
         memcpy(options.environment_up, up, sizeof options.environment_up);
-        picture shown = draw(context, run % 2, cloud, &camera, &options);
+        OWNED(picture_free) picture shown = draw(context, run % 2, cloud, &camera, &options);
         // The environment's axes in the world: y is up, x and z turned with it the shortest way.
         const ewa_vec3 Y = unit(up[0], up[1], up[2]);
         ewa_vec3 X = {1, 0, 0}, Z = {0, 0, 1};
@@ -157,10 +154,7 @@ TEST_ON(test_mirror_sphere, 0) {
             }
         print_message("run %d: largest error %.2g\n", run, worst);
         assert_true(worst < 0.01);
-        picture_free(&shown);
     }
-    ewa_environment_destroy(&environment);
-    ewa_cloud_destroy(&cloud);
 }
 
 static void constant_light(ewa_vec3 direction, float rgb[3]) {
@@ -171,15 +165,15 @@ static void constant_light(ewa_vec3 direction, float rgb[3]) {
 /// A constant environment is a constant, whatever the footprint.
 TEST_ON(test_constant_environment, 0) {
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
-    ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
-    ewa_environment *environment = shade_environment(context, 50, constant_light);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
+    OWNED(ewa_environment_destroy) ewa_environment *environment = shade_environment(context, 50, constant_light);
     for (int way = 0; way < 2; way++)
         for (uint32_t side_px = 9; side_px <= 160; side_px *= 4) {
             const ewa_camera camera = shade_camera(side_px, EYE, 32, 0);
             ewa_render_options options = phong_options(&mirror);
             options.environment = environment;
             options.supersampling = 1;
-            picture shown = draw(context, way, cloud, &camera, &options);
+            OWNED(picture_free) picture shown = draw(context, way, cloud, &camera, &options);
             uint32_t covered = 0;
             for (size_t p = 0; p < (size_t)side_px * side_px; p++) {
                 const float *rgba = &shown.frame.rgba[4 * p];
@@ -189,10 +183,7 @@ TEST_ON(test_constant_environment, 0) {
                             fabsf(rgba[2] - 0.7f) < 2e-6f);
             }
             assert_true(covered > side_px * side_px / 3);
-            picture_free(&shown);
         }
-    ewa_environment_destroy(&environment);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Squares of two degrees, black and white.
@@ -205,13 +196,13 @@ static void checker_light(ewa_vec3 direction, float rgb[3]) {
 /// Where a pixel mirrors many squares, it shows their mean; a lookup of single texels is black or white.
 TEST_ON(test_fine_environment_does_not_alias, 0) {
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
-    ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
-    ewa_environment *environment = shade_environment(context, 720, checker_light);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
+    OWNED(ewa_environment_destroy) ewa_environment *environment = shade_environment(context, 720, checker_light);
     for (int way = 0; way < 2; way++) {
         const ewa_camera camera = shade_camera(24, EYE, 32, 0); // 15 degrees from pixel to pixel
         ewa_render_options options = phong_options(&mirror);
         options.environment = environment;
-        picture shown = draw(context, way, cloud, &camera, &options);
+        OWNED(picture_free) picture shown = draw(context, way, cloud, &camera, &options);
         double worst = 0;
         uint32_t covered = 0;
         for (uint32_t p = 0; p < 24 * 24; p++)
@@ -221,10 +212,7 @@ TEST_ON(test_fine_environment_does_not_alias, 0) {
             }
         print_message("largest distance from the mean: %.2g\n", worst);
         assert_true(covered > 200 && worst < 0.1);
-        picture_free(&shown);
     }
-    ewa_environment_destroy(&environment);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// A square [-1, 1]^2 in the plane z = height + tilt x, facing +z, with discs that close it.
@@ -270,14 +258,14 @@ static bool near_rim(const picture *of, size_t pixel) {
 TEST_ON(test_eye_dome_leaves_planes_alone, 0) {
     static const double eyes[3][3] = {{0, 0, 4}, {2.5, -1, 2.5}, {-2, 2, 1.2}};
     for (int run = 0; run < 12; run++) {
-        ewa_cloud *cloud = make_squares(context, 1, run % 3 ? 0 : 0.3);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_squares(context, 1, run % 3 ? 0 : 0.3);
         const ewa_camera camera = shade_camera(SIDE_PX, eyes[run % 3], 40, run / 3 % 2 ? 2.5 : 0);
         WITH_DEFAULTS(ewa_render_options, options);
         options.shading = EWA_SHADING_NONE;
         options.background[2] = 0.5f, options.background[3] = 1;
         picture plain = draw(context, run / 6, cloud, &camera, &options);
         options.eye_dome = 1;
-        picture shown = draw(context, run / 6, cloud, &camera, &options);
+        OWNED(picture_free) picture shown = draw(context, run / 6, cloud, &camera, &options);
         double worst = 0, worst_rim = 0;
         for (size_t p = 0; p < 4 * SIDE_PX * SIDE_PX; p++) {
             const double lost = fabs((double)shown.frame.rgba[p] - (double)plain.frame.rgba[p]);
@@ -289,22 +277,20 @@ TEST_ON(test_eye_dome_leaves_planes_alone, 0) {
         print_message("run %d: most light lost %.2g, at the rim %.2g\n", run, worst, worst_rim);
         assert_true(worst < 1e-3 && worst_rim < 0.06);
         picture_free(&plain);
-        picture_free(&shown);
-        ewa_cloud_destroy(&cloud);
     }
 }
 
 /// A square in front of another: the one behind gets darker beside it and nowhere else, the one in front
 /// keeps its light.
 TEST_ON(test_eye_dome_darkens_behind_steps, 0) {
-    ewa_cloud *cloud = make_squares(context, 2, 0);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_squares(context, 2, 0);
     for (int run = 0; run < 4; run++) {
         const double eye[3] = {0, 0, 4};
         const ewa_camera camera = shade_camera(SIDE_PX, eye, 32, run % 2 ? 2.3 : 0);
         WITH_DEFAULTS(ewa_render_options, options);
         options.shading = EWA_SHADING_NONE;
         options.eye_dome = 1;
-        picture shown = draw(context, run / 2, cloud, &camera, &options);
+        OWNED(picture_free) picture shown = draw(context, run / 2, cloud, &camera, &options);
         const double step_px = 0.5 * camera.fx_px / (run % 2 ? 1 : 3.6), middle = SIDE_PX / 2.0;
         for (uint32_t y = 0; y < SIDE_PX; y++)
             for (uint32_t x = 0; x < SIDE_PX; x++) {
@@ -314,9 +300,7 @@ TEST_ON(test_eye_dome_darkens_behind_steps, 0) {
                 if (away < -3 || away > 8) assert_true(fabsf(rgba[0] - 0.6f) < 2e-3f);
                 if (away > 2 && away < 3) assert_true(rgba[0] < 0.2f);
             }
-        picture_free(&shown);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -52,13 +52,11 @@ static ewa_render_options all_options(const ewa_environment *environment) {
 /// depth bound are in or out by the last digit.
 static void hold(const scene *of, const ewa_render_options *options, const char *what) {
     static const double THRESHOLD = 3e-3;
-    picture reference = shade_reference(of->cloud, &of->camera, options);
-    picture fast = shade_draw(ewa_cloud_context(of->cloud), of->cloud, &of->camera, options);
+    OWNED(picture_free) picture reference = shade_reference(of->cloud, &of->camera, options);
+    OWNED(picture_free) picture fast = shade_draw(ewa_cloud_context(of->cloud), of->cloud, &of->camera, options);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, NULL);
     picture_print(what, &report);
     assert_true(report.over_count * 500 < report.pixel_count);
-    picture_free(&reference);
-    picture_free(&fast);
 }
 
 static scene make_scene(ewa_context *context, scene_kind kind, bool orthographic) {
@@ -70,10 +68,10 @@ static scene make_scene(ewa_context *context, scene_kind kind, bool orthographic
 }
 
 TEST_ON(test_pipeline_holds_to_the_reference, 0) {
-    ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
+    OWNED(ewa_environment_destroy) ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         if (kind == 2 * SCENE_NEAR + 1) continue; // touches the eye, which orthographic views do not have
-        scene of = make_scene(context, (scene_kind)(kind / 2), kind % 2);
+        OWNED(scene_free) scene of = make_scene(context, (scene_kind)(kind / 2), kind % 2);
         char name[64];
         snprintf(name, sizeof name, "%s%s", scene_name((scene_kind)(kind / 2)),
                  kind % 2 ? ", orthographic" : "");
@@ -98,17 +96,15 @@ TEST_ON(test_pipeline_holds_to_the_reference, 0) {
         options.background[1] = 0.5f, options.background[3] = 0.7f;
         options.edge_layers = 1;
         hold(&of, &options, "eye dome");
-        scene_free(&of);
     }
-    ewa_environment_destroy(&environment);
 }
 
 /// Surfels with an alpha and a material each: colours are weighted by the alpha, materials are not.
 TEST_ON(test_transparent_materials_hold, 0) {
     const float white[3] = {1, 1, 1};
     const double eye[3] = {1, 0.6, 4};
-    ewa_cloud *cloud = shade_sphere(context, 3000, white);
-    ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, 3000, white);
+    OWNED(ewa_environment_destroy) ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
     void *data = NULL;
     ewa_cloud_remove(cloud, EWA_COLOR);
     assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 4, &data), EWA_OK);
@@ -123,8 +119,6 @@ TEST_ON(test_transparent_materials_hold, 0) {
         options.layers = run == 0 ? 1 : 0; // as if opaque
         hold(&of, &options, run == 0 ? "alpha not used" : "alpha");
     }
-    ewa_environment_destroy(&environment);
-    ewa_cloud_destroy(&cloud);
 }
 
 static void assert_same_bytes(const picture *a, const picture *b) {
@@ -139,12 +133,13 @@ TEST(test_same_bytes_everywhere) {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL}, {5, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
-        picture first = {0};
+        OWNED(picture_free) picture first = {0};
         for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
-            ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
-            scene of;
+            OWNED(ewa_context_destroy) ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
+            OWNED(scene_free) scene of;
             assert_int_equal(scene_make(context, (scene_kind)(kind / 2), POINTS / 3, 83, 77, &of), EWA_OK);
             shade_set_material(of.cloud, slab);
+            OWNED(ewa_environment_destroy)
             ewa_environment *environment = shade_environment(context, 32, shade_linear_light);
             ewa_render_options options = all_options(environment);
             if (kind % 2) options.eye_dome = 1;
@@ -155,11 +150,7 @@ TEST(test_same_bytes_everywhere) {
                 assert_same_bytes(&first, &made);
                 picture_free(&made);
             }
-            ewa_environment_destroy(&environment);
-            scene_free(&of);
-            ewa_context_destroy(&context);
         }
-        picture_free(&first);
     }
 }
 
@@ -177,14 +168,13 @@ TEST_ON(test_order_of_materials_does_not_matter, 0) {
             material[i] = (uint8_t)(k * k % MATERIALS);
             normal[i][0] = 0, normal[i][1] = 0.3f, normal[i][2] = 1, radius[i] = 1;
         }
-        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, COUNT);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_MATERIAL, EWA_U8, 1, material, 0), EWA_OK);
         const ewa_render_options options = all_options(NULL);
         shown[run] = shade_draw(context, cloud, &camera, &options);
-        ewa_cloud_destroy(&cloud);
     }
     assert_same_bytes(&shown[0], &shown[1]);
     picture_free(&shown[0]);
@@ -198,7 +188,7 @@ static int alternate(const float position[3]) { return (int)(1000 + floor((doubl
 TEST_ON(test_materials_are_averaged, 0) {
     const float white[3] = {1, 1, 1};
     const double eye[3] = {0, 0, 5};
-    ewa_cloud *cloud = shade_sphere(context, 200000, white);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shade_sphere(context, 200000, white);
     const ewa_camera camera = shade_camera(40, eye, 26, 0);
     ewa_material table[2], middle;
     for (int i = 0; i < 2; i++) ewa_material_init(&table[i]);
@@ -209,10 +199,10 @@ TEST_ON(test_materials_are_averaged, 0) {
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = &middle, options.material_count = 1;
-    picture wanted = shade_draw(context, cloud, &camera, &options);
+    OWNED(picture_free) picture wanted = shade_draw(context, cloud, &camera, &options);
     shade_set_material(cloud, alternate);
     options.materials = table, options.material_count = 2;
-    picture shown = shade_draw(context, cloud, &camera, &options);
+    OWNED(picture_free) picture shown = shade_draw(context, cloud, &camera, &options);
     double worst = 0, mean = 0;
     for (uint32_t y = 12; y < 28; y++) // towards the edge the stripes are not of equal width
         for (uint32_t x = 12; x < 28; x++) {
@@ -224,14 +214,11 @@ TEST_ON(test_materials_are_averaged, 0) {
     print_message("mean error %.2g, largest %.2g\n", mean, worst);
     assert_true(fabs(mean) < 0.01); // the two materials are 0.5 apart, and twice that at the highlight
     assert_true(worst < 0.25);      // some fifty points in a pixel, at random
-    picture_free(&wanted);
-    picture_free(&shown);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// One material that all surfels have needs no memory of its own and looks as the table's only one does.
 TEST_ON(test_one_material_of_many, 0) {
-    scene of;
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, 64, 64, &of), EWA_OK);
     ewa_surfels_info plain, one, several;
     ewa_surfels *surfels = check_surfels(of.cloud, NULL);
@@ -239,13 +226,13 @@ TEST_ON(test_one_material_of_many, 0) {
     ewa_surfels_destroy(&surfels);
     ewa_render_options options = all_options(NULL);
     options.materials = &TABLE[1], options.material_count = 1;
-    picture wanted = shade_draw(context, of.cloud, &of.camera, &options);
+    OWNED(picture_free) picture wanted = shade_draw(context, of.cloud, &of.camera, &options);
     shade_set_material(of.cloud, all_one);
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
     ewa_surfels_describe(surfels, &one);
     ewa_surfels_destroy(&surfels);
     options.materials = TABLE, options.material_count = MATERIALS;
-    picture shown = shade_draw(context, of.cloud, &of.camera, &options);
+    OWNED(picture_free) picture shown = shade_draw(context, of.cloud, &of.camera, &options);
     assert_same_bytes(&wanted, &shown);
     shade_set_material(of.cloud, slab);
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
@@ -256,9 +243,6 @@ TEST_ON(test_one_material_of_many, 0) {
     assert_int_equal(several.material_count, MATERIALS);
     assert_int_equal(one.resident_bytes, plain.resident_bytes);
     assert_int_equal(several.resident_bytes, plain.resident_bytes + (plain.point_count + 15) / 16 * 16);
-    picture_free(&wanted);
-    picture_free(&shown);
-    scene_free(&of);
 }
 
 static void refuse(ewa_context *context, const check_log *log, const scene *of,
@@ -276,38 +260,34 @@ static void refuse(ewa_context *context, const check_log *log, const scene *of,
     picture_free(&made);
 }
 
-TEST(test_wrong_options_are_refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(0, &log);
-    scene of;
+TEST_LOGGED(test_wrong_options_are_refused, 0) {
+    OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, 300, 64, 64, &of), EWA_OK);
     shade_set_material(of.cloud, slab);
     ewa_render_options options = all_options(NULL);
     options.material_count = 2;
-    refuse(context, &log, &of, &options, "material 2, the table has 2");
+    refuse(context, log, &of, &options, "material 2, the table has 2");
     options = all_options(NULL), options.material_count = 257;
-    refuse(context, &log, &of, &options, "material_count");
+    refuse(context, log, &of, &options, "material_count");
     options = all_options(NULL), options.materials = NULL;
-    refuse(context, &log, &of, &options, "without materials");
+    refuse(context, log, &of, &options, "without materials");
     options = all_options(NULL), options.light_count = 9;
-    refuse(context, &log, &of, &options, "light_count");
+    refuse(context, log, &of, &options, "light_count");
     options = all_options(NULL), options.lights[2].color[1] = -1;
-    refuse(context, &log, &of, &options, "lights[2].color[1] is -1");
+    refuse(context, log, &of, &options, "lights[2].color[1] is -1");
     options = all_options(NULL), options.lights[1].direction_world[0] = INFINITY;
-    refuse(context, &log, &of, &options, "lights[1].direction_world is inf");
+    refuse(context, log, &of, &options, "lights[1].direction_world is inf");
     options = all_options(NULL), options.environment_up[1] = NAN;
-    refuse(context, &log, &of, &options, "environment_up");
+    refuse(context, log, &of, &options, "environment_up");
     options = all_options(NULL), memset(options.environment_up, 0, sizeof options.environment_up);
-    refuse(context, &log, &of, &options, "environment_up");
+    refuse(context, log, &of, &options, "environment_up");
     options = all_options(NULL), options.eye_dome = 101;
-    refuse(context, &log, &of, &options, "eye_dome");
+    refuse(context, log, &of, &options, "eye_dome");
     ewa_material table[MATERIALS];
     memcpy(table, TABLE, sizeof table);
     table[1].shininess = 0.5f;
     options = all_options(NULL), options.materials = table;
-    refuse(context, &log, &of, &options, "shininess of material 1");
-    scene_free(&of);
-    ewa_context_destroy(&context);
+    refuse(context, log, &of, &options, "shininess of material 1");
 }
 
 TEST(test_every_failing_allocation_is_clean) {

@@ -120,6 +120,7 @@ TEST_ON(test_planes_do_not_depend_on_depths, 2) {
     static const ewa_kernel kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE,
                                          EWA_KERNEL_CIRCULAR};
     for (size_t c = 0; c < sizeof clouds / sizeof clouds[0]; c++) {
+        OWNED(ewa_surfels_destroy)
         ewa_surfels *surfels = make_sheets(context, clouds[c].points, clouds[c].min_px, clouds[c].max_px,
                                            clouds[c].every, clouds[c].times);
         for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++)
@@ -132,7 +133,6 @@ TEST_ON(test_planes_do_not_depend_on_depths, 2) {
                          way & 1 ? "lit" : "not lit", way & 2 ? "orthographic" : "perspective");
                 hold(context, surfels, &options, way & 2, what);
             }
-        ewa_surfels_destroy(&surfels);
     }
 }
 

@@ -38,11 +38,10 @@ static bool same_planes(const planes *a, const planes *b) {
 }
 
 static ewa_surfels *make_surfels(ewa_context *context, far_kind kind, uint64_t count, ewa_bounds *bounds) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     assert_int_equal(far_make(context, kind, count, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, bounds), EWA_OK);
     ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_cloud_destroy(&cloud);
     return surfels;
 }
 
@@ -88,7 +87,7 @@ static void check_pixel(const planes *parts, const planes *whole, uint32_t width
 
 TEST_ON(test_planes_are_averages_of_the_finer_picture, 2) {
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 50000, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 50000, &bounds);
     static const uint32_t finer[] = {2, 3, 8};
     for (size_t k = 0; k < sizeof finer / sizeof *finer; k++) {
         const planes parts = make_planes((size_t)PIXELS * finer[k] * finer[k]), whole = make_planes(PIXELS);
@@ -101,7 +100,6 @@ TEST_ON(test_planes_are_averages_of_the_finer_picture, 2) {
         free(parts.memory);
         free(whole.memory);
     }
-    ewa_surfels_destroy(&surfels);
 }
 
 /// A picture of several bands, drawn whole and in the caller's bands, for one thread and four, for every instruction set.
@@ -109,15 +107,15 @@ TEST(test_same_bytes_for_threads_bands_and_instruction_sets) {
     static const uint32_t threads[] = {1, 4}, masks[] = {0, EWA_CPU_ALL};
     planes first = {.memory = NULL};
     for (int variant = 0; variant < 4; variant++) {
-        ewa_context *context = check_context_of(threads[variant & 1], masks[variant >> 1]);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(threads[variant & 1], masks[variant >> 1]);
         ewa_bounds bounds;
-        ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 20000, &bounds);
+        OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 20000, &bounds);
         ewa_camera camera = far_camera(&bounds, 1, TALL_PX, 1);
         const ewa_render_options options = options_of(2);
         const planes whole = make_planes((size_t)TALL_PX * TALL_PX), bands = make_planes((size_t)TALL_PX * TALL_PX);
         camera.cy_px += 0.3;
         draw(context, surfels, &camera, &options, &whole);
-        ewa_renderer *renderer = check_renderer(context);
+        OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
         for (uint32_t row = 0; row < TALL_PX; row += 128) {
             assert_int_equal(ewa_render_begin(renderer, &camera, &options, &bands.frame), EWA_OK);
             assert_int_equal(ewa_render_set_rows(renderer, row, row + 128 < TALL_PX ? row + 128 : TALL_PX), EWA_OK);
@@ -129,9 +127,6 @@ TEST(test_same_bytes_for_threads_bands_and_instruction_sets) {
         assert_true(same_planes(&first, &whole));
         if (first.memory != whole.memory) free(whole.memory);
         free(bands.memory);
-        ewa_renderer_destroy(&renderer);
-        ewa_surfels_destroy(&surfels);
-        ewa_context_destroy(&context);
     }
     free(first.memory);
 }
@@ -140,13 +135,13 @@ TEST(test_same_bytes_for_threads_bands_and_instruction_sets) {
 TEST_ON(test_bands_of_parts_end_where_they_should, 0) {
     enum { FINER = 8, WIDE_PX = 1030, HIGH_PX = 130, FIRST_PX = 128, ROW = WIDE_PX * FINER };
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 5000, &bounds);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 5000, &bounds);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     ewa_camera camera = far_camera(&bounds, 1, HIGH_PX, 1), fine = far_camera(&bounds, 1, HIGH_PX, FINER);
     camera.width_px = WIDE_PX, fine.width_px = ROW;
     camera.cy_px = HIGH_PX, fine.cy_px = HIGH_PX * FINER; // its middle is at the lower edge
     float *whole = malloc((size_t)WIDE_PX * HIGH_PX * 4 * sizeof *whole);
-    float *parts = malloc((size_t)ROW * HIGH_PX * FINER * 4 * sizeof *parts);
+    OWNED(check_free) float *parts = malloc((size_t)ROW * HIGH_PX * FINER * 4 * sizeof *parts);
     assert_true(whole && parts);
     const ewa_render_options options = options_of(FINER);
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &(ewa_frame){.rgba = whole}, NULL), EWA_OK);
@@ -166,18 +161,15 @@ TEST_ON(test_bands_of_parts_end_where_they_should, 0) {
         }
     assert_true(shown > 100);
     free(whole);
-    free(parts);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
 }
 
 TEST_ON(test_reference_draws_the_same, 2) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_bounds bounds;
     ewa_surfels_info info;
     assert_int_equal(far_make(context, FAR_TOWN, 20000, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
     const ewa_camera camera = far_camera(&bounds, 2, SIDE_PX, 1);
     ewa_render_options options = options_of(4);
@@ -191,8 +183,6 @@ TEST_ON(test_reference_draws_the_same, 2) {
     assert_true(db > 50);
     free(fast.memory);
     free(plain.memory);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
 /// 0 takes so many parts that discs are about as large as one, none where they are, and never too many.
@@ -203,7 +193,7 @@ TEST_ON(test_surfels_say_how_many_parts, 2) {
     } cases[] = {{0.05, 1}, {1, 1}, {2, 2}, {4, 4}, {8, 8}, {200, 8}};
     ewa_bounds bounds;
     // Discs are 1.6 spacings of sqrt(4 pi / 40,000) in radius, 1.05 px from the distance that is called 1 here.
-    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
     const planes chosen = make_planes(PIXELS), said = make_planes(PIXELS);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
@@ -215,7 +205,6 @@ TEST_ON(test_surfels_say_how_many_parts, 2) {
     }
     free(chosen.memory);
     free(said.memory);
-    ewa_surfels_destroy(&surfels);
 }
 
 /// Sizes between two counts of parts are told apart, and where one takes over from another both are drawn.
@@ -257,7 +246,7 @@ static double rms(const planes *a, const planes *b) {
 /// In between a picture is the mean of both, plane by plane.
 TEST_ON(test_parts_take_over_gradually, 2) {
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
     const planes mixed = make_planes(PIXELS), coarse = make_planes(PIXELS), fine = make_planes(PIXELS);
     const planes before[] = {make_planes(PIXELS), make_planes(PIXELS), make_planes(PIXELS)};
     const ewa_render_options open = options_of(0), one = options_of(1), two = options_of(2);
@@ -294,18 +283,17 @@ TEST_ON(test_parts_take_over_gradually, 2) {
     assert_true(between >= 5 && between <= 9);
     const planes *const all[] = {&mixed, &coarse, &fine, &before[0], &before[1], &before[2]};
     for (int i = 0; i < 6; i++) free(all[i]->memory);
-    ewa_surfels_destroy(&surfels);
 }
 
 /// What has time enough is drawn as what has no end of it, and a coarser level by fewer parts.
 TEST_ON(test_a_budget_has_parts_of_its_level, 0) {
-    ewa_cloud *cloud = NULL;
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = NULL;
     ewa_bounds bounds;
     assert_int_equal(far_make(context, FAR_SPHERE, 20000, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
     WITH_DEFAULTS(ewa_surfels_options, with_levels);
     with_levels.level_count = 2;
-    ewa_surfels *surfels = check_surfels(cloud, &with_levels);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = check_surfels(cloud, &with_levels);
     const planes a = make_planes(PIXELS), b = make_planes(PIXELS);
     ewa_camera camera = far_camera(&bounds, 4, SIDE_PX, 1);
     ewa_render_options options = options_of(0), hurried = options;
@@ -321,16 +309,12 @@ TEST_ON(test_a_budget_has_parts_of_its_level, 0) {
     draw(context, surfels, &camera, &options, &b);
     assert_false(same_planes(&a, &b));
     free(a.memory), free(b.memory);
-    ewa_surfels_destroy(&surfels);
-    ewa_cloud_destroy(&cloud);
 }
 
-TEST(test_refused) {
-    check_log log = {.count = 0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_refused, 1) {
     ewa_bounds bounds;
-    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 100, &bounds);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 100, &bounds);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     const planes to = make_planes(PIXELS);
     ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
     ewa_render_options options = options_of(9);
@@ -341,11 +325,8 @@ TEST(test_refused) {
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_OK);
     options = options_of(8), camera.width_px = 8193;
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_ERROR_LIMIT);
-    assert_non_null(strstr(log.text, "8193"));
+    assert_non_null(strstr(log->text, "8193"));
     free(to.memory);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_failing_allocation) {

@@ -34,7 +34,7 @@ static void open_reader(const ewa_cloud *cloud, double cutoff, double radius_sca
 /// Discs: orthogonal axes of length radius * scale / F across the unit normal, right-handed with it.
 TEST_ON(test_discs, 1) {
     enum { COUNT = 1000 };
-    ewa_cloud *cloud = make_cloud(context, COUNT);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, COUNT);
     double *position = add(cloud, EWA_POSITION, EWA_F64, 3);
     float *normal = add(cloud, EWA_NORMAL, EWA_F32, 3), *radius = add(cloud, EWA_RADIUS, EWA_F32, 1);
     check_random random = {1};
@@ -73,14 +73,13 @@ TEST_ON(test_discs, 1) {
         }
         assert_true(s->alpha == 1);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Any two tangent axes: the principal ones have the same covariance, are orthogonal and sorted; the normal
 /// follows the given one.
 TEST_ON(test_ellipses, 1) {
     enum { COUNT = 1000 };
-    ewa_cloud *cloud = make_cloud(context, COUNT);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, COUNT);
     double *position = add(cloud, EWA_POSITION, EWA_F64, 3), *tu = add(cloud, EWA_TANGENT_U, EWA_F64, 3);
     double *tv = add(cloud, EWA_TANGENT_V, EWA_F64, 3), *normal = add(cloud, EWA_NORMAL, EWA_F64, 3);
     memset(position, 0, COUNT * 3 * sizeof *position);
@@ -112,7 +111,6 @@ TEST_ON(test_ellipses, 1) {
         assert_true(fabs(dot(n, n) - 1) < 1e-14 && fabs(dot(n, u)) < 1e-12 && fabs(dot(n, v)) < 1e-12);
         assert_true(dot(n, &normal[3 * i]) >= 0);
     }
-    ewa_cloud_destroy(&cloud);
 }
 
 /// Every reason to leave a point out.
@@ -128,7 +126,7 @@ TEST_ON(test_left_out, 1) {
     static const bool wanted[] = {true,  false, false, false, false, false, false,
                                   false, false, false, false, true,  false};
     enum { COUNT = sizeof rows / sizeof rows[0] };
-    ewa_cloud *cloud = make_cloud(context, COUNT);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, COUNT);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, &rows[0][0], sizeof rows[0]), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, &rows[0][3], sizeof rows[0]), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, &rows[0][6], sizeof rows[0]), EWA_OK);
@@ -151,7 +149,6 @@ TEST_ON(test_left_out, 1) {
     open_reader(cloud, 2, 1, &reader);
     assert_int_equal(ewa_surfel_read(&reader, 0, 8, surfel, drawable), 2);
     for (int i = 0; i < 8; i++) assert_int_equal(drawable[i], axes_wanted[i]);
-    ewa_cloud_destroy(&cloud);
 }
 
 static double read_one_color(ewa_context *context, ewa_type type, uint32_t components, const void *value,
@@ -212,24 +209,20 @@ TEST(test_refused_clouds) {
         {{EWA_POSITION, EWA_TANGENT_U, EWA_TANGENT_V, EWA_COLOR}, {3, 3, 3, 1}, "'color' has 1"},
     };
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        ewa_cloud *cloud = make_cloud(context, 1);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(context, 1);
         for (int a = 0; a < 4 && rows[i].names[a]; a++)
             add(cloud, rows[i].names[a], EWA_F32, rows[i].components[a]);
         WITH_DEFAULTS(ewa_surfels_options, options);
         ewa_surfel_reader reader;
         assert_int_equal(ewa_surfel_reader_open(cloud, &options, &reader), EWA_ERROR_ARGUMENT);
         if (!strstr(log.text, rows[i].message)) fail_msg("'%s' lacks \"%s\"", log.text, rows[i].message);
-        ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Every member out of its range, named in the message.
-TEST(test_options) {
-    check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+TEST_LOGGED(test_options, 1) {
     ewa_surfels_options surfels, chosen_surfels;
     assert_int_equal(ewa_surfels_options_choose(context, NULL, &chosen_surfels), EWA_OK);
     assert_true(chosen_surfels.cutoff == 3 && chosen_surfels.radius_scale == 1);
@@ -239,11 +232,11 @@ TEST(test_options) {
         surfels.cutoff = bad_surfels[i][0];
         surfels.radius_scale = bad_surfels[i][1];
         assert_int_equal(ewa_surfels_options_choose(context, &surfels, &chosen_surfels), EWA_ERROR_ARGUMENT);
-        assert_non_null(strstr(log.text, i < 3 ? "cutoff" : "radius_scale"));
+        assert_non_null(strstr(log->text, i < 3 ? "cutoff" : "radius_scale"));
     }
     memset(&surfels, 0, sizeof surfels);
     assert_int_equal(ewa_surfels_options_choose(context, &surfels, &chosen_surfels), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "struct_size"));
+    assert_non_null(strstr(log->text, "struct_size"));
 
     ewa_render_options render, chosen;
     assert_int_equal(ewa_render_options_choose(context, NULL, &chosen), EWA_OK);
@@ -254,7 +247,7 @@ TEST(test_options) {
         ewa_render_options_init(&render, sizeof render);                                                     \
         render.member = value;                                                                               \
         assert_int_equal(ewa_render_options_choose(context, &render, &chosen), EWA_ERROR_ARGUMENT);          \
-        if (!strstr(log.text, #member)) fail_msg("'%s' lacks " #member, log.text);                           \
+        if (!strstr(log->text, #member)) fail_msg("'%s' lacks " #member, log->text);                           \
     } while (0)
     REFUSES(struct_size, 8);
     REFUSES(kernel, (ewa_kernel)5);
@@ -273,8 +266,7 @@ TEST(test_options) {
     render.light_count = 1;
     render.lights[0].direction_world[1] = INFINITY;
     assert_int_equal(ewa_render_options_choose(context, &render, &chosen), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "direction_world"));
-    ewa_context_destroy(&context);
+    assert_non_null(strstr(log->text, "direction_world"));
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -88,7 +88,7 @@ TEST(test_halves) {
 /// A sheet of one colour across the picture, `z` before the eye.
 static ewa_surfels *make_sheet(ewa_context *context, double z, uint8_t red, uint8_t blue, double half_width) {
     enum { SHEET = 40 };
-    ewa_cloud *cloud = check_cloud_of(context, SHEET * SHEET);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, SHEET * SHEET);
     float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
     float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
@@ -102,7 +102,6 @@ static ewa_surfels *make_sheet(ewa_context *context, double z, uint8_t red, uint
         color[3 * i] = red, color[3 * i + 1] = 0, color[3 * i + 2] = blue;
     }
     ewa_surfels *surfels = check_surfels(cloud, NULL);
-    ewa_cloud_destroy(&cloud);
     return surfels;
 }
 
@@ -129,11 +128,12 @@ static void read_middle(const picture *from, double mean[2]) {
 /// Two sheets at one place: the picture goes from one to the other as the weights do.
 TEST_ON(test_cross_fade, 0) {
     scene of = sheet_scene();
+    OWNED(ewa_surfels_destroy)
     ewa_surfels *red = make_sheet(context, 4, 255, 0, 1), *blue = make_sheet(context, 4, 0, 255, 1);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    picture drawn = picture_make(SIDE, SIDE);
+    OWNED(picture_free) picture drawn = picture_make(SIDE, SIDE);
     for (double t = 1.0 / 64; t < 1; t += 1.0 / 64) {
         draw(renderer, &of, &options, (part[]){{red, 1 - t, true}, {blue, t, true}}, 2, &drawn);
         double mean[2];
@@ -141,21 +141,18 @@ TEST_ON(test_cross_fade, 0) {
         assert_true(fabs(mean[0] - (1 - t)) < 1e-3);
         assert_true(fabs(mean[1] - t) < 1e-3);
     }
-    picture_free(&drawn);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&red);
-    ewa_surfels_destroy(&blue);
 }
 
 /// A faint sheet a little in front hides what is behind it only if it is to.
 TEST_ON(test_hiding, 0) {
     scene of = sheet_scene();
+    OWNED(ewa_surfels_destroy)
     ewa_surfels *front = make_sheet(context, 3.5, 255, 0, 1), *back = make_sheet(context, 4, 0, 255, 0.7),
                 *far = make_sheet(context, 4.5, 255, 0, 1);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    picture drawn = picture_make(SIDE, SIDE), alone = picture_make(SIDE, SIDE);
+    OWNED(picture_free) picture drawn = picture_make(SIDE, SIDE), alone = picture_make(SIDE, SIDE);
     double mean[2];
     const double weight = 1.0 / 64;
     draw(renderer, &of, &options, (part[]){{front, weight, true}, {back, 1, true}}, 2, &drawn);
@@ -189,12 +186,6 @@ TEST_ON(test_hiding, 0) {
     draw(renderer, &of, &options, (part[]){{back, 1, true}, {far, 1, true}}, 2, &alone);
     draw(renderer, &of, &options, (part[]){{back, 1, true}, {far, 0.5, true}, {far, 0.5, false}}, 3, &drawn);
     assert_true(cubes_largest_step(&alone, &drawn) <= 1);
-    picture_free(&drawn);
-    picture_free(&alone);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&front);
-    ewa_surfels_destroy(&back);
-    ewa_surfels_destroy(&far);
 }
 
 /// With weights and sources that hide nothing, too, no order, number of threads or size of tiles changes a byte.
@@ -203,10 +194,10 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
     picture drawn[2] = {picture_make(SIDE, SIDE), picture_make(SIDE, SIDE)};
     print_message("%s, %s\n", scene_name(kind), what);
     for (int turn = 0; turn < 4; turn++) {
-        ewa_context *context = check_context(threads[turn], NULL);
-        scene of;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads[turn], NULL);
+        OWNED(scene_free) scene of;
         assert_int_equal(scene_make(context, kind, POINTS, SIDE, SIDE, &of), EWA_OK);
-        cubes made = cubes_make(of.cloud, 3);
+        OWNED(cubes_free) cubes made = cubes_make(of.cloud, 3);
         part parts[2 * CUBES_MAX];
         uint32_t count = 0;
         for (uint32_t k = 0; k < made.count; k++) {
@@ -215,14 +206,10 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
             parts[count++] = (part){made.part[i], weight, i % 3 != 1};
             if (i % 2) parts[count++] = (part){made.part[i], 1 - weight, i % 3 == 1};
         }
-        ewa_renderer *renderer = check_renderer(context);
+        OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
         ewa_renderer_set_tile(renderer, tiles_px[turn]);
         draw(renderer, &of, options, parts, count, &drawn[turn > 0]);
         if (turn > 0) picture_expect_same(&drawn[0], &drawn[1]);
-        ewa_renderer_destroy(&renderer);
-        cubes_free(&made);
-        scene_free(&of);
-        ewa_context_destroy(&context);
     }
     for (int i = 0; i < 2; i++) picture_free(&drawn[i]);
 }
@@ -241,24 +228,18 @@ TEST(test_invariance) {
     hold_invariance(SCENE_ELLIPSES, &options, "three layers");
 }
 
-TEST(test_refusals) {
-    check_log log = {0};
-    ewa_context *context = check_context(0, &log);
+TEST_LOGGED(test_refusals, 0) {
     scene of = sheet_scene();
-    ewa_surfels *sheet = make_sheet(context, 4, 255, 0, 1);
-    ewa_renderer *renderer = check_renderer(context);
+    OWNED(ewa_surfels_destroy) ewa_surfels *sheet = make_sheet(context, 4, 255, 0, 1);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render_add_weighted(renderer, sheet, 1), EWA_ERROR_ARGUMENT);
-    picture drawn = picture_make(SIDE, SIDE);
+    OWNED(picture_free) picture drawn = picture_make(SIDE, SIDE);
     assert_int_equal(ewa_render_begin(renderer, &of.camera, NULL, &drawn.frame), EWA_OK);
     static const double wrong[] = {0, -1, 1.0000001, INFINITY, NAN};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(ewa_render_add_weighted(renderer, sheet, wrong[i]), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_add_weighted(renderer, sheet, 1e-300), EWA_OK);
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
-    picture_free(&drawn);
-    ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&sheet);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -16,15 +16,13 @@ typedef struct planes {
 static const double DIRECTION[3] = {-1, 0.3, 0.5};
 
 static ewa_gaussian_stats draw(const ewa_gaussians *set, const ewa_camera *camera, const ewa_gaussian_options *options, planes *to) {
-    ewa_gaussian_renderer *renderer = NULL;
-    ewa_splats *splats = NULL;
+    OWNED(ewa_gaussian_renderer_destroy) ewa_gaussian_renderer *renderer = NULL;
+    OWNED(ewa_splats_destroy) ewa_splats *splats = NULL;
     ewa_gaussian_stats stats;
     const ewa_frame frame = {.rgba = to->rgba, .depth = to->depth, .normal = to->normal, .coverage = to->coverage};
     assert_int_equal(ewa_splats_create(set, false, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(set->context, &renderer), EWA_OK);
     assert_int_equal(ewa_gaussian_render(renderer, splats, camera, options, &frame, &stats), EWA_OK);
-    ewa_gaussian_renderer_destroy(&renderer);
-    ewa_splats_destroy(&splats);
     return stats;
 }
 
@@ -75,7 +73,7 @@ static double enter(const ewa_gaussians *set, size_t i, const ewa_camera *camera
 }
 
 TEST_ON(ellipsoids_where_they_are, 2) {
-    ewa_gaussians set = gaussians_random(context, COUNT, 1, 7);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, COUNT, 1, 7);
     static planes out;
     for (int n = 0; n < 4; n++) { // the last ones fill the picture
         ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, n == 1 ? 110 : n == 3 ? 10 : 40, DIRECTION, n == 1 ? 1.2 : 4);
@@ -114,12 +112,11 @@ TEST_ON(ellipsoids_where_they_are, 2) {
         print_message("ellipsoids, %d: %zu of %zu pixels apart, depths within %.2g\n", n, apart, compared, largest);
         assert_true(apart < PIXELS / 100);
     }
-    ewa_gaussians_free(&set);
 }
 
 TEST_ON(dots_at_centres, 2) {
     const double center[3] = {0.1, -0.2, 0.3}, scales[3] = {0.01, 0.2, 0.05}, turn[4] = {1, 0, 0, 0}, color[3] = {0.2, 0.6, 1};
-    ewa_gaussians set = gaussians_one(context, center, scales, turn, 0.5, color);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_one(context, center, scales, turn, 0.5, color);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, DIRECTION, 4);
     static planes out;
     const ewa_gaussian_options options = options_of(EWA_DISPLAY_POINTS);
@@ -136,14 +133,13 @@ TEST_ON(dots_at_centres, 2) {
         if (away < 1.7) assert_true(fabsf(out.rgba[4 * p + 2] - 1) < 1e-5f && fabsf(out.rgba[4 * p] - 0.0331f) < 1e-3f);
     }
     assert_true(fabs(covered - 3.14159 * 6.25) < 1.5);
-    ewa_gaussians_free(&set);
 }
 
 /// A surface before half of the picture, and one behind it; a section through the middle.
 TEST_ON(among_surfaces_and_sections, 2) {
     const double center[3] = {0, 0, 0}, scales[3] = {0.6, 0.6, 0.6}, turn[4] = {1, 0, 0, 0}, color[3] = {1, 1, 1},
                  front[3] = {0, 0, 1}, inside[3] = {0, 0, 1};
-    ewa_gaussians set = gaussians_one(context, center, scales, turn, 0.9, color);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_one(context, center, scales, turn, 0.9, color);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, front, 4);
     static planes out, alone, cut, surface;
     ewa_gaussian_options options = options_of(EWA_DISPLAY_ELLIPSOIDS);
@@ -175,13 +171,12 @@ TEST_ON(among_surfaces_and_sections, 2) {
     draw(&set, &camera, &options, &cut);
     const size_t middle = (size_t)(HEIGHT / 2) * WIDTH + WIDTH / 2;
     assert_true(fabs((double)alone.depth[middle] - 3.1) < 0.01 && fabs((double)cut.depth[middle] - 4.9) < 0.01);
-    ewa_gaussians_free(&set);
 }
 
 /// What is hidden everywhere in a tile is not looked at, and changes nothing.
 TEST_ON(hidden_behind, 2) {
     enum { MANY = 2000 };
-    ewa_gaussians set = gaussians_random(context, MANY, 1, 7);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, MANY, 1, 7);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, DIRECTION, 4);
     const double *m = camera.world_to_camera;
     const ewa_gaussian_options options = options_of(EWA_DISPLAY_ELLIPSOIDS);
@@ -200,15 +195,14 @@ TEST_ON(hidden_behind, 2) {
     set.count = MANY;
     assert_memory_equal(all.rgba, ball.rgba, sizeof all.rgba);
     assert_memory_equal(all.depth, ball.depth, sizeof all.depth);
-    ewa_gaussians_free(&set);
 }
 
 TEST(same_bytes) {
     static planes first[2], other;
     for (uint32_t n = 0; n < 4; n++)
         for (int kind = 0; kind < 2; kind++) {
-            ewa_context *context = check_context(n == 3 ? 1 : n + 1, NULL);
-            ewa_gaussians set = gaussians_random(context, COUNT, 1, 7);
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(n == 3 ? 1 : n + 1, NULL);
+            OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, COUNT, 1, 7);
             for (uint32_t i = 0; n == 3 && i < COUNT / 2; i++) { // in another order
                 const size_t a = i, b = COUNT - 1 - i;
                 float *const streams[] = {set.centers, set.scales, set.rotations, set.opacities, set.harmonics};
@@ -224,8 +218,6 @@ TEST(same_bytes) {
             const ewa_gaussian_options options = options_of(kind ? EWA_DISPLAY_POINTS : EWA_DISPLAY_ELLIPSOIDS);
             draw(&set, &camera, &options, n ? &other : &first[kind]);
             if (n) assert_memory_equal(&first[kind], &other, sizeof other);
-            ewa_gaussians_free(&set);
-            ewa_context_destroy(&context);
         }
 }
 

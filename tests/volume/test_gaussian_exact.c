@@ -73,15 +73,16 @@ TEST_ON(test_integrals, 2) {
             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)},
         };
-        ewa_gaussians set = gaussians_one(context, center, scales, rotation, 0.9, white);
+        OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_one(context, center, scales, rotation, 0.9, white);
         WITH_DEFAULTS(ewa_gaussian_options, options);
         options.prefilter_px2 = 0;
         options.minimum_alpha = 1e-4, options.cutoff = 5;
+        OWNED(ewa_image_free)
         ewa_image truth = draw_integrals(context, &camera, center, axes, scales, 0.9, options.minimum_alpha);
         double decibels[2];
         for (int exact = 0; exact < 2; exact++) {
             options.projection = (ewa_gaussian_projection)exact;
-            ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+            OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
             // Alpha alone: white on nothing.
             double sum = 0;
             for (size_t i = 0; i < SIDE_PX * SIDE_PX; i++) {
@@ -89,13 +90,10 @@ TEST_ON(test_integrals, 2) {
                 sum += d * d;
             }
             decibels[exact] = -10 * log10(sum / (SIDE_PX * SIDE_PX) + 1e-30);
-            ewa_image_free(&image);
         }
         print_message("%g degrees off the axis, shape %d: exact %.1f dB, affine %.1f dB\n", angles[n / 3],
                       n % 3, decibels[1], decibels[0]);
         worst_exact = fmin(worst_exact, decibels[1]), worst_trained = fmin(worst_trained, decibels[0]);
-        ewa_image_free(&truth);
-        ewa_gaussians_free(&set);
     }
     if (!(worst_exact > 60)) fail_msg("%g dB", worst_exact);
     assert_true(worst_trained < 40); // the affine map fails
@@ -163,7 +161,7 @@ static double popped(const ewa_gaussians *set, double first_deg, bool by_centers
 /// a degree: what passes before what changes pixel by pixel. Sorted by centres whole shields do, and the
 /// largest change from frame to frame is several times as large.
 TEST_ON(test_popping, 2) {
-    ewa_gaussians set = gaussians_random(context, 10, 0, 21);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 10, 0, 21);
     for (size_t i = 0; i < set.count; i++) {
         set.opacities[i] = 0.9f;
         for (size_t k = 0; k < 3; k++) {
@@ -184,7 +182,6 @@ TEST_ON(test_popping, 2) {
     assert_true(share[0] < 0.0005);
     assert_true(share[1] > 0.05);
     assert_true(largest[1] > 3 * largest[0]);
-    ewa_gaussians_free(&set);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

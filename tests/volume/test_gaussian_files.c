@@ -13,8 +13,8 @@ TEST(test_scenes) {
     for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
         char path[1024];
         if (!check_data(files[f], path, sizeof path)) continue;
-        ewa_context *context = check_context(0, NULL);
-        ewa_gaussians set;
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(0, NULL);
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_load(context, path, &set, NULL), EWA_OK);
         ewa_splats *splats;
         ewa_splats_info info;
@@ -32,17 +32,13 @@ TEST(test_scenes) {
             options.projection = (ewa_gaussian_projection)(n / 2);
             options.order = n % 2 ? EWA_ORDER_RAY : EWA_ORDER_CENTER;
             options.near_world = 0; // the three points' scene is small
-            ewa_image fast = gaussians_draw(&set, &camera, &options, NULL);
-            ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
+            OWNED(ewa_image_free) ewa_image fast = gaussians_draw(&set, &camera, &options, NULL);
+            OWNED(ewa_image_free) ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
             const double decibels = gaussians_decibels(&fast, &slow);
             print_message("%s, %s by %s: %.1f dB\n", files[f], n / 2 ? "exact" : "trained",
                           n % 2 ? "rays" : "centres", decibels);
             assert_true(decibels > 60);
-            ewa_image_free(&fast);
-            ewa_image_free(&slow);
         }
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 

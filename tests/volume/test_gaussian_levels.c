@@ -45,14 +45,15 @@ static ewa_image coarser(ewa_context *context, const ewa_image *fine) {
 }
 
 TEST_ON(nearer_to_finer_pictures, 2) {
-    ewa_gaussians set = ball(context, false);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = ball(context, false);
     ewa_gaussian_options options;
     ewa_gaussian_stats stats;
     ewa_gaussian_options_init(&options, sizeof options);
     const double direction[3] = {-1, 0.3, 0.2};
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, direction, 4), finer = gaussians_camera(FINER * WIDTH, FINER * HEIGHT, 40, direction, 4);
+    OWNED(ewa_image_free)
     ewa_image fine = gaussians_draw(&set, &finer, &options, NULL), truth = coarser(context, &fine);
-    ewa_image all = gaussians_draw(&set, &camera, &options, &stats);
+    OWNED(ewa_image_free) ewa_image all = gaussians_draw(&set, &camera, &options, &stats);
     const uint64_t all_count = stats.visible_count;
     const double of_all = gaussians_decibels(&all, &truth);
     static const struct {
@@ -61,24 +62,19 @@ TEST_ON(nearer_to_finer_pictures, 2) {
     } cases[] = {{1e-9, 0, 1}, {0.5, 0.5, 2}, {1, 2, 5}, {2, 3, 15}};
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
         options.merge_px = cases[c].merge_px;
-        ewa_image merged = gaussians_draw(&set, &camera, &options, &stats);
+        OWNED(ewa_image_free) ewa_image merged = gaussians_draw(&set, &camera, &options, &stats);
         const double decibels = gaussians_decibels(&merged, &truth);
         print_message("%g px: %llu of %llu, %.2f dB of finer pictures, all %.2f dB\n", cases[c].merge_px,
                       (unsigned long long)stats.visible_count, (unsigned long long)all_count, decibels, of_all);
         assert_true(stats.visible_count * cases[c].fewer <= all_count && decibels >= of_all + cases[c].decibels);
         if (c == 0) assert_memory_equal(merged.pixels, all.pixels, 16 * WIDTH * HEIGHT);
-        ewa_image_free(&merged);
     }
-    ewa_image_free(&all);
-    ewa_image_free(&truth);
-    ewa_image_free(&fine);
-    ewa_gaussians_free(&set);
 }
 
 /// Small sets have none, nor do 2D Gaussians, nor sets that are not to have any.
 TEST_ON(only_large_sets, 2) {
     for (int k = 0; k < 4; k++) {
-        ewa_gaussians set = ball(context, false);
+        OWNED(ewa_gaussians_free) ewa_gaussians set = ball(context, false);
         ewa_splats *splats;
         ewa_splats_info info;
         if (k == 1) set.count = EWA_SPLAT_LEVELS_FROM - 1;
@@ -88,15 +84,14 @@ TEST_ON(only_large_sets, 2) {
         assert_true(info.has_levels == (k == 0));
         ewa_splats_destroy(&splats);
         set.count = COUNT;
-        ewa_gaussians_free(&set);
     }
 }
 
 /// What stands for several is of the class of most of it.
 TEST(classes) {
-    ewa_context *context = check_context(2, NULL);
-    ewa_gaussians set = ball(context, false);
-    ewa_splats *splats = NULL;
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = ball(context, false);
+    OWNED(ewa_splats_destroy) ewa_splats *splats = NULL;
     assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
     for (size_t i = 0; i < COUNT; i++) set.classes[i] = i % 8 == 7 ? 9 : set.centers[3 * i + 2] > 0 ? 700 : 2;
     assert_int_equal(ewa_splats_create(&set, true, &splats), EWA_OK);
@@ -116,20 +111,17 @@ TEST(classes) {
     assert_int_equal(counts[0] + counts[1], COUNT);
     assert_int_equal(counts[1], COUNT / 8);
     assert_true(counts[2] > COUNT / 4 && amiss < counts[2] / 20);
-    ewa_splats_destroy(&splats);
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 TEST(same_bytes) {
-    float *first = NULL;
+    OWNED(check_free) float *first = NULL;
     WITH_DEFAULTS(ewa_gaussian_options, options);
     options.merge_px = 1;
     for (uint32_t threads = 1; threads < 4; threads += 2) {
-        ewa_context *context = check_context(threads, NULL);
-        ewa_gaussians set = ball(context, threads > 1);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
+        OWNED(ewa_gaussians_free) ewa_gaussians set = ball(context, threads > 1);
         const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, (const double[]){1, 0.3, -0.2}, 1.5);
-        ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
         if (first) {
             assert_memory_equal(image.pixels, first, 16 * WIDTH * HEIGHT);
         } else {
@@ -137,11 +129,7 @@ TEST(same_bytes) {
             assert_non_null(first);
             memcpy(first, image.pixels, 16 * WIDTH * HEIGHT);
         }
-        ewa_image_free(&image);
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
-    free(first);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

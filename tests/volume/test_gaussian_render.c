@@ -43,7 +43,7 @@ static void check_held(const ewa_gaussians *set, const ewa_camera *camera, const
 TEST_ON(test_reference, 2) {
     for (uint32_t degree = 0; degree <= EWA_MAX_SH_DEGREE; degree++)
         for (int exact = 0; exact < 2; exact++) {
-            ewa_gaussians set = gaussians_random(context, 1500, degree, 7 + degree);
+            OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 1500, degree, 7 + degree);
             set.origin[0] = 1e4, set.antialiased = degree == 1;
             ewa_camera camera =
                 gaussians_camera(150, 110, degree == 2 ? 130 : 40, FRONT, degree == 3 ? 0.5 : 3);
@@ -60,9 +60,8 @@ TEST_ON(test_reference, 2) {
             char what[64];
             snprintf(what, sizeof what, "degree %u, %s", degree, exact ? "exact" : "trained");
             check_held(&set, &camera, &options, what);
-            ewa_gaussians_free(&set);
         }
-    ewa_gaussians flat = gaussians_random(context, 1500, 0, 3);
+    OWNED(ewa_gaussians_free) ewa_gaussians flat = gaussians_random(context, 1500, 0, 3);
     for (size_t i = 0; i < flat.count; i++) flat.scales[3 * i + 2] = 0;
     const ewa_camera camera = gaussians_camera(150, 110, 60, FRONT, 2);
     for (int exact = 0; exact < 2; exact++) {
@@ -83,14 +82,13 @@ TEST_ON(test_reference, 2) {
         if (n == 3) options.prefilter_px2 = 0;
         check_held(&flat, &place, &options, "2D");
     }
-    ewa_gaussians_free(&flat);
 }
 
 /// More faint ones behind each other than are sorted at once: over many octaves of depth, at one depth.
 TEST_ON(test_dense, 2) {
     for (int many = 0; many < 2; many++)
         for (int flat = 0; flat < 2; flat++) {
-            ewa_gaussians set = gaussians_random(context, many ? 3000 : 150, 0, 21);
+            OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, many ? 3000 : 150, 0, 21);
             check_random random = {4};
             for (size_t i = 0; i < set.count; i++) {
                 const double depth =
@@ -116,7 +114,6 @@ TEST_ON(test_dense, 2) {
             char what[64];
             snprintf(what, sizeof what, "%u, %s", set.count, flat ? "orthographic" : "perspective");
             check_held(&set, &camera, &options, what);
-            ewa_gaussians_free(&set);
         }
 }
 
@@ -173,7 +170,7 @@ TEST_ON(test_crossing, 1) {
     const ewa_camera camera = gaussians_camera(65, 33, 30, (const double[3]){0, 0, -1}, 5);
     for (int n = 0; n < 12; n++) {
         const bool red_first = n % 2;
-        ewa_gaussians set;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_create(context, 2, 0, &set), EWA_OK);
         for (size_t i = 0; i < 2; i++) {
             // Turned about y by 40 degrees either way; x is to the right of this camera or to the left.
@@ -189,7 +186,7 @@ TEST_ON(test_crossing, 1) {
         ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n / 6));
         options.order = orders[n % 6 / 2];
         const bool by_ray = options.order == EWA_ORDER_RAY || (n / 6 == 1 && options.order == EWA_ORDER_OF_PROJECTION);
-        ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
         for (size_t x = 5; x < 65; x += 54) {
             const float *pixel = image.pixels + 4 * (16 * 65 + x);
             const bool red = by_ray ? x < 32 : red_first;
@@ -200,8 +197,6 @@ TEST_ON(test_crossing, 1) {
                 fabs((double)(pixel[red ? 2 : 0] / pixel[3]) - linear[1]) > 2e-3)
                 fail_msg("%d, column %zu: %g %g", n, x, (double)pixel[0], (double)pixel[2]);
         }
-        ewa_image_free(&image);
-        ewa_gaussians_free(&set);
     }
 }
 
@@ -214,7 +209,7 @@ TEST_ON(test_passing, 1) {
     for (int n = 0; n < 200; n++) {
         const bool third = n >= 100;
         const double at = (n % 100 - 50) * 0.008; // of blue, behind red, which is at 0; the third one at 0.1 is black
-        ewa_gaussians set;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_create(context, third ? 3 : 2, 0, &set), EWA_OK);
         for (size_t i = 0; i < set.count; i++) {
             set.centers[3 * i + 2] = i == 0 ? 0 : i == 1 ? (float)at : 0.1f;
@@ -227,8 +222,8 @@ TEST_ON(test_passing, 1) {
         }
         ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n % 2));
         options.order = EWA_ORDER_RAY;
-        ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
-        ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
         assert_true(gaussians_decibels(&image, &slow) > 90);
         const float *pixel = image.pixels + 4 * (8 * 16 + 8);
         const double alpha = (double)pixel[3];
@@ -239,9 +234,6 @@ TEST_ON(test_passing, 1) {
             fail_msg("%g apart: %g, not %g", at, red, 0.6 * (1 - 0.6 * in_front));
         if (n % 100 && fabs(red - before) > 0.05) fail_msg("%g apart, %d: from %g to %g", at, n, before, red);
         before = red;
-        ewa_image_free(&image);
-        ewa_image_free(&slow);
-        ewa_gaussians_free(&set);
     }
 }
 
@@ -252,10 +244,11 @@ TEST_ON(test_flat, 1) {
     const double lean[4] = {cos(turn), 0, sin(turn), 0}; // about y, by twice that
     const ewa_camera camera = gaussians_camera(65, 65, 40, (const double[3]){0, 0, -1}, 4);
     for (int n = 0; n < 2; n++) {
+        OWNED(ewa_gaussians_free)
         ewa_gaussians set = gaussians_one(context, (const double[3]){0, 0, 0}, (const double[3]){sizes[n], sizes[n], 0},
                                           lean, 0.8, white);
         set.flat = true;
-        ewa_image image = gaussians_draw(&set, &camera, NULL, NULL);
+        OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, NULL, NULL);
         for (int i = 0; i < 65; i++)
             for (int k = -1; k < 2; k++) {
                 const double x = (i - 32) / camera.fx_px, y = k / camera.fy_px; // of the ray, at a depth of 1
@@ -269,20 +262,18 @@ TEST_ON(test_flat, 1) {
                 const double drawn = (double)image.pixels[4 * ((size_t)(32 + k) * 65 + (size_t)i) + 3];
                 if (fabs(drawn - alpha) > 2e-4) fail_msg("%d, column %d, row %d: %g instead of %g", n, i, k, drawn, alpha);
             }
-        ewa_image_free(&image);
-        ewa_gaussians_free(&set);
     }
 }
 
 /// A colour that all have is that of the picture, whatever is behind what.
 TEST_ON(test_constant, 1) {
-    ewa_gaussians set = gaussians_random(context, 3000, 0, 11);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 3000, 0, 11);
     for (size_t i = 0; i < set.count; i++)
         for (size_t k = 0; k < 3; k++)
             set.harmonics[3 * i + k] = (float)((0.2 + 0.3 * (double)k - 0.5) / 0.28209479177387814);
     const ewa_camera camera = gaussians_camera(120, 90, 50, FRONT, 1.5);
     ewa_gaussian_options options = options_of(EWA_PROJECTION_TRAINED);
-    ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+    OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
     for (size_t i = 0; i < 120 * 90; i++) {
         const double alpha = (double)image.pixels[4 * i + 3];
         assert_true(alpha >= 0 && alpha <= 1.000001);
@@ -293,8 +284,6 @@ TEST_ON(test_constant, 1) {
                 fail_msg("%g instead of %g", (double)image.pixels[4 * i + k] / alpha, linear);
         }
     }
-    ewa_image_free(&image);
-    ewa_gaussians_free(&set);
 }
 
 /// None, those without opacity, numbers that are none: the background.
@@ -303,20 +292,18 @@ TEST_ON(test_nothing, 1) {
     ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
     options.background[1] = options.background[3] = 1;
     for (uint32_t count = 0; count < 3; count++) {
-        ewa_gaussians set = gaussians_random(context, 10 * count, 1, 2);
+        OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 10 * count, 1, 2);
         for (size_t i = 0; i < set.count; i++) {
             if (count == 1) set.opacities[i] = 0;
             if (count == 2) set.scales[3 * i] = i % 2 ? NAN : INFINITY;
         }
         ewa_gaussian_stats stats;
-        ewa_image image = gaussians_draw(&set, &camera, &options, &stats);
+        OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, &stats);
         assert_int_equal(stats.splat_count, 0);
         for (size_t i = 0; i < 40 * 30; i++) {
             assert_true(image.pixels[4 * i] == 0 && image.pixels[4 * i + 3] == 1);
             assert_true(fabsf(image.pixels[4 * i + 1] - 1) < 1e-6f);
         }
-        ewa_image_free(&image);
-        ewa_gaussians_free(&set);
     }
 }
 
@@ -327,10 +314,10 @@ TEST_ON(test_one, 1) {
     const ewa_camera camera = gaussians_camera(64, 48, 30, front, 5);
     for (int n = 0; n < 6; n++) {
         const double opacity = n % 3 == 0 ? 0.3 : n % 3 == 1 ? 0.8 : 1;
-        ewa_gaussians set = gaussians_one(context, center, scales, ROUND, opacity, color);
+        OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_one(context, center, scales, ROUND, opacity, color);
         const ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n / 3));
-        ewa_splats *splats;
-        ewa_gaussian_renderer *renderer;
+        OWNED(ewa_splats_destroy) ewa_splats *splats;
+        OWNED(ewa_gaussian_renderer_destroy) ewa_gaussian_renderer *renderer;
         assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
         assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
         static float coverage[64 * 48], depth[64 * 48];
@@ -340,9 +327,6 @@ TEST_ON(test_one, 1) {
             assert_true(fabs((double)coverage[i] - fmin(opacity, 0.99)) < 2e-3);
             assert_true(opacity < 0.5 ? isinf(depth[i]) : fabsf(depth[i] - 5) < 1e-3f);
         }
-        ewa_gaussian_renderer_destroy(&renderer);
-        ewa_splats_destroy(&splats);
-        ewa_gaussians_free(&set);
     }
 }
 
@@ -356,7 +340,7 @@ TEST_ON(test_surface, 1) {
     static const double depths[CASES] = {5.5, 5.8325, 2, 8}, wanted[CASES] = {0.8 * 0.841345, 0.8 * 0.952043, 0, 0.8};
     static float depth[PIXELS], rgba[4 * PIXELS];
     const ewa_camera camera = gaussians_camera(64, 48, 10, front, 5);
-    ewa_gaussians set = gaussians_one(context, center, scales, ROUND, 0.8, color);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_one(context, center, scales, ROUND, 0.8, color);
     for (int n = 0; n < 2 * CASES; n++) {
         for (size_t i = 0; i < PIXELS; i++) {
             depth[i] = (float)depths[n % CASES];
@@ -364,19 +348,16 @@ TEST_ON(test_surface, 1) {
         }
         ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n / CASES));
         options.surface_depth = depth, options.surface_rgba = rgba;
-        ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
         const double red = wanted[n % CASES];
         const size_t middle = 4 * (24 * 64 + 32);
         const double linear[2] = {red <= 0.04045 ? red / 12.92 : pow((red + 0.055) / 1.055, 2.4),
                                   pow((1 - red + 0.055) / 1.055, 2.4)};
         assert_true(fabs((double)image.pixels[middle] - linear[0]) < 2e-4);
         assert_true(fabs((double)image.pixels[middle + 2] - linear[1]) < 2e-4);
-        ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
+        OWNED(ewa_image_free) ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
         assert_true(gaussians_decibels(&image, &slow) > 70);
-        ewa_image_free(&image);
-        ewa_image_free(&slow);
     }
-    ewa_gaussians_free(&set);
 }
 
 /// Section planes cut along every ray; also with edges of surfaces, whose share of a pixel is what the reference has.
@@ -396,7 +377,7 @@ TEST_ON(test_sections, 2) {
             camera.fx_px = camera.fy_px = 20;
         }
         ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n % 2));
-        ewa_image whole = gaussians_draw(&set, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image whole = gaussians_draw(&set, &camera, &options, NULL);
         for (uint32_t i = 0; i < 3; i++) {
             memcpy(options.section_planes[i], planes[i], sizeof planes[i]);
             options.section_planes[i][3] -= 100 * planes[i][1];
@@ -411,18 +392,16 @@ TEST_ON(test_sections, 2) {
             options.surface_depth = depth, options.surface_rgba = rgba;
         }
         options.background[2] = options.background[3] = 1;
-        ewa_image cut = gaussians_draw(&set, &camera, &options, NULL);
-        ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
+        OWNED(ewa_image_free) ewa_image cut = gaussians_draw(&set, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
         const double decibels = gaussians_decibels(&cut, &slow), changed = gaussians_decibels(&cut, &whole);
         print_message("sections, %d: %.1f dB, the whole: %.1f dB\n", n, decibels, changed);
         assert_true(decibels > 80 && changed < 30);
-        ewa_image_free(&whole);
-        ewa_image_free(&cut);
-        ewa_image_free(&slow);
     }
     ewa_gaussians_free(&set);
     // A plane that every pixel lies on one side of: all, or nothing.
     const ewa_camera camera = gaussians_camera(64, 48, 30, (const double[3]){0, 0, -1}, 5);
+    OWNED(ewa_gaussians_free)
     ewa_gaussians sheet = gaussians_one(context, (const double[3]){0, 0, 0}, (const double[3]){50, 50, 0.01},
                                         ROUND, 0.8, (const double[3]){1, 1, 1});
     for (int n = 0; n < 3; n++) {
@@ -430,22 +409,19 @@ TEST_ON(test_sections, 2) {
         options.section_count = 1;
         options.section_planes[0][n == 0 ? 0 : 2] = n == 2 ? -1 : 1;
         if (n) options.section_planes[0][3] = n == 1 ? -1 : 1;
-        ewa_image cut = gaussians_draw(&sheet, &camera, &options, NULL);
+        OWNED(ewa_image_free) ewa_image cut = gaussians_draw(&sheet, &camera, &options, NULL);
         const float left = cut.pixels[4 * (24 * 64 + 10) + 3], right = cut.pixels[4 * (24 * 64 + 50) + 3];
         if (n == 0) assert_true(fminf(left, right) == 0 && fabsf(fmaxf(left, right) - 0.8f) < 1e-2f);
         if (n == 1) assert_true(left == 0 && right == 0);
         if (n == 2) assert_true(fabsf(left - 0.8f) < 1e-2f && fabsf(right - 0.8f) < 1e-2f);
-        ewa_image_free(&cut);
     }
     ewa_gaussian_options wrong = options_of(EWA_PROJECTION_TRAINED);
     wrong.section_count = 1;
-    ewa_image none;
+    OWNED(ewa_image_free) ewa_image none;
     assert_int_equal(ewa_image_create(context, 64, 48, 4, &none), EWA_OK);
     const ewa_frame frame = {.rgba = none.pixels};
     assert_int_equal(ewa_gaussian_render_reference(&sheet, &camera, &wrong, &frame),
                      EWA_ERROR_ARGUMENT);
-    ewa_image_free(&none);
-    ewa_gaussians_free(&sheet);
 }
 
 /// Harmonics are orthonormal: means over directions of products of two, from the colours that they give.
@@ -459,14 +435,14 @@ TEST_ON(test_harmonics, 1) {
     static double values[AROUND * DOWN][COUNT];
     static const double center[3] = {0}, scales[3] = {0.1, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5};
     for (size_t k = 0; k < COUNT; k += 3) {
-        ewa_gaussians one = gaussians_one(context, center, scales, ROUND, 0.99, grey), set;
+        OWNED(ewa_gaussians_free) ewa_gaussians one = gaussians_one(context, center, scales, ROUND, 0.99, grey), set;
         assert_int_equal(ewa_gaussians_create(context, 1, 4, &set), EWA_OK);
         memcpy(set.scales, one.scales, 3 * sizeof(float));
         memcpy(set.rotations, one.rotations, 4 * sizeof(float));
         set.opacities[0] = 0.99f;
         for (size_t c = 0; c < 3 && k + c < COUNT; c++) set.harmonics[3 * (k + c) + c] = 0.25f;
-        ewa_splats *splats;
-        ewa_gaussian_renderer *renderer;
+        OWNED(ewa_splats_destroy) ewa_splats *splats;
+        OWNED(ewa_gaussian_renderer_destroy) ewa_gaussian_renderer *renderer;
         assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
         assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
         for (size_t n = 0; n < AROUND * DOWN; n++) {
@@ -483,10 +459,6 @@ TEST_ON(test_harmonics, 1) {
                 values[n][k + c] = (1.055 * pow(linear, 1 / 2.4) - 0.055 - 0.5) / 0.25;
             }
         }
-        ewa_gaussian_renderer_destroy(&renderer);
-        ewa_splats_destroy(&splats);
-        ewa_gaussians_free(&set);
-        ewa_gaussians_free(&one);
     }
     for (size_t i = 0; i < COUNT; i++)
         for (size_t j = 0; j <= i; j++) {

@@ -333,7 +333,7 @@ TEST(test_bytes) {
     static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static float first[4 * PIXELS];
     for (int n = 0; n < 6; n++) {
-        ewa_context *context = check_context_of(n % 2 ? 5 : 1, masks[n / 2]);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(n % 2 ? 5 : 1, masks[n / 2]);
         const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 50, SLANTED, 2);
         cast c = start_on(context);
         add_ball(&c, -20, 0, 1);
@@ -346,7 +346,6 @@ TEST(test_bytes) {
         assert_memory_equal(first, image.pixels, sizeof first);
         ewa_image_free(&image);
         end(&c);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -389,7 +388,7 @@ TEST_ON(test_bad, 1) {
 TEST(test_memory) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
     check_memory memory = {.calls_left = -1};
-    ewa_context *context = check_context_on(1, &memory);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context_on(1, &memory);
     for (long n = 0, done = 0; !done; n++) {
         cast c = start_on(context);
         add_ball(&c, -20, 20, 1);
@@ -406,7 +405,6 @@ TEST(test_memory) {
         assert_int_equal(ewa_mixture_render(c.renderer, &mixture, &camera, NULL, &frame, NULL), EWA_OK);
         end(&c);
     }
-    ewa_context_destroy(&context);
 }
 
 /// An allocator that is asked by the thread that calls the library only.
@@ -448,7 +446,7 @@ TEST(test_allocator) {
 
 /// A world of any scale, whose camera makes up for it; no sets and one beside a volume.
 TEST_ON(test_scales, 2) {
-    ewa_image first = {0};
+    OWNED(ewa_image_free) ewa_image first = {0};
     for (int n = 0; n < 3; n++) {
         const int exponent = n == 0 ? 0 : n == 1 ? 200 : -200;
         static const uint32_t dims[3] = {24, 24, 24};
@@ -476,7 +474,6 @@ TEST_ON(test_scales, 2) {
         ewa_volume_free(&volume);
         end(&c);
     }
-    ewa_image_free(&first);
 }
 
 int main(void) {

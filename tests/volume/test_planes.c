@@ -113,11 +113,11 @@ static void draw_mixed(const ewa_gaussians *set, const ewa_voxels *voxels, const
 /// A cube of fog, 12 voxels of 0.1 a side, around a place.
 static ewa_voxels *make_fog(ewa_context *context, const double place[3], float extinction) {
     static const uint32_t dims[3] = {12, 12, 12};
+    OWNED(ewa_volume_free)
     ewa_volume volume = scene_volume(context, dims, (const double[3]){0.1, 0.1, 0.1}, scene_ones, NULL);
     for (int k = 0; k < 3; k++) volume.index_to_world[4 * k + 3] += place[k];
     const ewa_transfer transfer = scene_linear(0.9f, 0.3f, 0.1f, extinction);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
-    ewa_volume_free(&volume);
     return voxels;
 }
 
@@ -125,9 +125,9 @@ static ewa_voxels *make_fog(ewa_context *context, const double place[3], float e
 TEST_ON(test_out_of_sight, 2) {
     static planes scan, out;
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, SLANTED, 3);
-    ewa_gaussians set = gaussians_random(context, 300, 1, 5);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 300, 1, 5);
     for (uint32_t i = 0; i < set.count; i++) set.centers[3 * i + 1] += 500;
-    ewa_voxels *fog = make_fog(context, (const double[3]){0, 500, 0}, 5);
+    OWNED(ewa_voxels_destroy) ewa_voxels *fog = make_fog(context, (const double[3]){0, 500, 0}, 5);
     for (int n = 0; n < 4; n++) {
         draw_scan(context, &camera, n < 2 ? 1 : 0.4, &scan);
         size_t thin = 0, fat = 0;
@@ -149,8 +149,6 @@ TEST_ON(test_out_of_sight, 2) {
         draw_mixed(&set, fog, &camera, &options, &frame);
         assert_int_equal(count_apart(&scan, &out, NULL), 0);
     }
-    ewa_voxels_destroy(&fog);
-    ewa_gaussians_free(&set);
 }
 
 /// Pixels beside what lets light through, and those whose surface hides it all, keep the surface's planes.
@@ -164,9 +162,9 @@ TEST_ON(test_beside, 2) {
     for (int n = 0; n < 4; n++) {
         // At the ball's outline, in front of it or behind.
         const double place[3] = {n % 2 ? 1.4 : 0.4, 0.05, n % 2 ? 1.5 : -1.5};
-        ewa_gaussians set =
+        OWNED(ewa_gaussians_free) ewa_gaussians set =
             gaussians_one(context, place, (const double[3]){0.12, 0.08, 0.02}, ROUND, 0.9, BLUE);
-        ewa_voxels *fog = make_fog(context, place, 2);
+        OWNED(ewa_voxels_destroy) ewa_voxels *fog = make_fog(context, place, 2);
         if (n < 2)
             draw_set(&set, &camera, &plain, &own), draw_set(&set, &camera, &over, &frame);
         else
@@ -188,8 +186,6 @@ TEST_ON(test_beside, 2) {
         assert_int_equal(count_apart(&scan, &out, seen), 0);
         print_message("beside, %d: %zu beside, %zu before, %zu hidden\n", n, beside, before, hidden);
         assert_true(beside > 500 && before > 5 && (n % 2 == 0 || hidden > 5));
-        ewa_voxels_destroy(&fog);
-        ewa_gaussians_free(&set);
     }
 }
 
@@ -213,7 +209,7 @@ TEST_ON(test_sheets, 2) {
     make_ramp(&ramp);
     size_t before_count = 0, own_count = 0, behind_count = 0;
     for (int n = 0; n < 12; n++) {
-        ewa_gaussians set;
+        OWNED(ewa_gaussians_free) ewa_gaussians set;
         assert_int_equal(ewa_gaussians_create(context, 2, 0, &set), EWA_OK);
         for (size_t i = 0; i < 2; i++) { // at the depths 4 and 6
             set.centers[3 * i + 2] = i ? 1 : -1;
@@ -251,7 +247,6 @@ TEST_ON(test_sheets, 2) {
                 assert_true(c < 1 || p->coverage[i] == ramp.coverage[i]);
             }
         }
-        ewa_gaussians_free(&set);
     }
     assert_true(before_count > 1000 && behind_count > 1000 && own_count > 1000);
 }
@@ -261,11 +256,11 @@ TEST_ON(test_fog, 2) {
     static planes wall, out;
     // So narrow that every ray goes through the fog's faces, which are 1.2 apart.
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 2, FRONT, 5);
-    ewa_gaussians nothing;
+    OWNED(ewa_gaussians_free) ewa_gaussians nothing;
     assert_int_equal(ewa_gaussians_create(context, 0, 0, &nothing), EWA_OK);
     for (int n = 0; n < 4; n++) {
         const double extinction = n / 2 ? 1.5 : 0.4, taken = 1 - exp(-1.2 * extinction);
-        ewa_voxels *fog = make_fog(context, (const double[3]){0, 0, 0}, (float)extinction);
+        OWNED(ewa_voxels_destroy) ewa_voxels *fog = make_fog(context, (const double[3]){0, 0, 0}, (float)extinction);
         make_ramp(&wall);
         for (size_t i = 0; i < PIXELS; i++) {
             wall.depth[i] = 6;
@@ -288,16 +283,14 @@ TEST_ON(test_fog, 2) {
                 assert_true(out.normal[3 * i + 1] == 0 && out.normal[3 * i + 2] == 0);
             }
         }
-        ewa_voxels_destroy(&fog);
     }
-    ewa_gaussians_free(&nothing);
 }
 
 /// A wavy surface among Gaussians, with soft places everywhere, as the reference has it.
 TEST_ON(test_reference, 2) {
     static planes surface, out, slow;
     check_random random = {3};
-    ewa_gaussians set = gaussians_random(context, 400, 1, 5);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 400, 1, 5);
     for (int n = 0; n < 8; n++) {
         ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 50, SLANTED, 2.5);
         if (n % 4 == 3) camera.projection = EWA_ORTHOGRAPHIC, camera.fx_px = camera.fy_px = 25;
@@ -335,7 +328,6 @@ TEST_ON(test_reference, 2) {
                       100.0 * (double)apart / PIXELS, largest, sum / PIXELS);
         assert_true(apart < PIXELS / 50 && largest < 0.02 && sum / PIXELS < 1e-3);
     }
-    ewa_gaussians_free(&set);
 }
 
 /// A volume's reference, over the same kind of surface.
@@ -344,9 +336,10 @@ TEST_ON(test_volume_reference, 2) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 24);
     static const uint32_t dims[3] = {10, 12, 11};
     static const double width = 3;
+    OWNED(ewa_volume_free)
     ewa_volume volume = scene_volume(context, dims, (const double[3]){1, 1, 1}, scene_blob, &width);
     const ewa_transfer transfer = scene_linear(0.9f, 0.3f, 0.1f, 0.4f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     make_ramp(&surface);
     for (size_t i = 0; i < PIXELS; i++) surface.depth[i] = i % 5 ? 20 + (float)(i / WIDTH) * 0.1f : INFINITY;
     const ewa_gaussian_options options = options_over(&surface);
@@ -367,8 +360,6 @@ TEST_ON(test_volume_reference, 2) {
     }
     print_message("a volume's reference: %zu of %d depths apart, coverage %.2g\n", apart, PIXELS, largest);
     assert_true(own > 1000 && own < PIXELS - 500 && apart < PIXELS / 50 && largest < 0.02);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// A frame's planes are the same bytes whichever others are asked for; surfaces without normals have 0, without
@@ -381,8 +372,8 @@ TEST_ON(test_null, 1) {
         alphas.coverage[i] = ramp.rgba[4 * i + 3];
         for (size_t k = 0; k < 3; k++) alphas.normal[3 * i + k] = 0;
     }
-    ewa_gaussians set = gaussians_random(context, 200, 1, 5);
-    ewa_voxels *fog = make_fog(context, (const double[3]){0.3, 0, -0.5}, 3);
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 200, 1, 5);
+    OWNED(ewa_voxels_destroy) ewa_voxels *fog = make_fog(context, (const double[3]){0.3, 0, -0.5}, 3);
     for (int what = 0; what < 3; what++)
         for (int given = 0; given < 4; given++) {
             ewa_gaussian_options full = options_over(&ramp), options = full;
@@ -427,8 +418,6 @@ TEST_ON(test_null, 1) {
         unit += square > 0;
     }
     assert_true(unit > PIXELS / 20);
-    ewa_voxels_destroy(&fog);
-    ewa_gaussians_free(&set);
 }
 
 /// Threads and instruction sets change no byte.
@@ -436,10 +425,10 @@ TEST(test_bytes) {
     static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static planes scan, first[3], out;
     for (int n = 0; n < 6; n++) {
-        ewa_context *context = check_context_of(n % 2 ? 5 : 1, masks[n / 2]);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_of(n % 2 ? 5 : 1, masks[n / 2]);
         const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, SLANTED, 3);
-        ewa_gaussians set = gaussians_random(context, 500, 1, 5);
-        ewa_voxels *fog = make_fog(context, (const double[3]){0.3, 0, -1}, 3);
+        OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 500, 1, 5);
+        OWNED(ewa_voxels_destroy) ewa_voxels *fog = make_fog(context, (const double[3]){0.3, 0, -1}, 3);
         draw_scan(context, &camera, 0.6, &scan);
         const ewa_gaussian_options options = options_over(&scan);
         const ewa_frame frame = frame_of(&out);
@@ -451,9 +440,6 @@ TEST(test_bytes) {
             if (n == 0) first[what] = out;
             assert_memory_equal(&first[what], &out, sizeof out);
         }
-        ewa_voxels_destroy(&fog);
-        ewa_gaussians_free(&set);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -481,6 +467,7 @@ TEST_ON(test_eye_dome, 2) {
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 30, FRONT, 5);
     make_ramp(&whole);
     for (size_t i = 0; i < 4 * PIXELS; i++) whole.rgba[i] = 1;
+    OWNED(ewa_gaussians_free)
     ewa_gaussians set = gaussians_one(context, (const double[3]){0, 0, -1}, (const double[3]){0.3, 0.3, 0.01},
                                       ROUND, 0.95, (const double[3]){1, 1, 1});
     const ewa_gaussian_options options = options_over(&whole);
@@ -491,19 +478,18 @@ TEST_ON(test_eye_dome, 2) {
     for (size_t i = 0; i < PIXELS; i++) minimum = fminf(minimum, plain.rgba[4 * i]);
     assert_true(minimum < 0.7f);
     assert_true(fabsf(plain.rgba[0] - 1) < 1e-3f && fabsf(plain.rgba[4 * (35 * WIDTH + 45)] - 1) < 1e-2f);
-    ewa_gaussians_free(&set);
 }
 
 /// Planes of a surface that is not given.
 TEST(test_bad) {
     static planes ramp, out;
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, FRONT, 3);
     make_ramp(&ramp);
-    ewa_gaussians set = gaussians_random(context, 10, 0, 5);
-    ewa_splats *splats;
-    ewa_gaussian_renderer *renderer;
+    OWNED(ewa_gaussians_free) ewa_gaussians set = gaussians_random(context, 10, 0, 5);
+    OWNED(ewa_splats_destroy) ewa_splats *splats;
+    OWNED(ewa_gaussian_renderer_destroy) ewa_gaussian_renderer *renderer;
     assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
     const ewa_frame frame = frame_of(&out);
@@ -519,10 +505,6 @@ TEST(test_bad) {
                          EWA_ERROR_ARGUMENT);
         assert_non_null(strstr(log.text, words[n]));
     }
-    ewa_gaussian_renderer_destroy(&renderer);
-    ewa_splats_destroy(&splats);
-    ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -54,10 +54,10 @@ TEST(test_open_pixels) {
     static const uint32_t dims[3] = {48, 40, 56};
     static const double directions[][3] = {{0, 0, -1}, {0.3, 0.2, -1}, {-1, 0.4, 0.1}, {0.2, 1, 0.5}};
     for (uint32_t threads = 1; threads < 3; threads++) {
-        ewa_context *context = check_context(threads, NULL);
-        ewa_volume volume = scene_volume(context, dims, UNIT, half_wall, NULL);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context(threads, NULL);
+        OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, half_wall, NULL);
         const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.4f);
-        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
         for (int n = 0; n < 16; n++) {
             const double distance = (n / 4 % 2 ? 100 : 170);
             ewa_camera camera = scene_camera(SIDE, SIDE, directions[n % 4], distance);
@@ -75,9 +75,6 @@ TEST(test_open_pixels) {
             assert_true(stats[0].point_count + stats[0].splat_count <
                         stats[1].point_count + stats[1].splat_count);
         }
-        ewa_voxels_destroy(&voxels);
-        ewa_volume_free(&volume);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -86,11 +83,11 @@ TEST(test_open_pixels) {
 TEST_ON(test_part_of_block, 1) {
     enum { BOX = 16, COVERED = 12, VOXELS = BOX * BOX * BOX };
     static const uint32_t dims[3] = {BOX, BOX, BOX};
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     for (int i = 0; i < VOXELS; i++)
         ((float *)volume.voxels)[i] = i % BOX < COVERED && i < VOXELS / 2 ? 2 : 0.001f;
     const ewa_transfer transfer = scene_linear(1, 1, 1, 50);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (int splats = 0; splats < 2; splats++) {
         ewa_camera camera;
         ewa_camera_init(&camera);
@@ -102,13 +99,10 @@ TEST_ON(test_part_of_block, 1) {
         WITH_DEFAULTS(ewa_volume_options, options);
         options.method = splats ? EWA_VOLUME_SPLATS : EWA_VOLUME_POINTS;
         ewa_volume_stats stats;
-        ewa_image image = draw(context, voxels, &camera, &options, &stats);
+        OWNED(ewa_image_free) ewa_image image = draw(context, voxels, &camera, &options, &stats);
         assert_true(stats.hidden_count > VOXELS / 8 && stats.hidden_count <= VOXELS / BOX * COVERED);
         assert_int_equal(stats.hidden_count + stats.splat_count + stats.point_count, VOXELS);
-        ewa_image_free(&image);
     }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

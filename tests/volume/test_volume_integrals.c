@@ -53,16 +53,16 @@ TEST_ON(test_blob, 2) {
     static const uint32_t dims[3] = {48, 48, 48};
     enum { SIDE = 64 };
     const double q = 5, kappa = 0.05;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &q);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &q);
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (int view = 0; view < 4; view++) {
         const bool ortho = view & 1, far = view & 2;
         ewa_camera camera = scene_camera(SIDE, SIDE, DIRECTION, far ? 150 : 60);
         if (ortho) assert_int_equal(ewa_camera_set_ortho(&camera, far ? 100 : 40), EWA_OK);
         WITH_DEFAULTS(ewa_volume_options, options);
         options.prefilter_px = 0, options.cutoff = 4, options.minimum_transmittance = 0;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         const double s2 = q * q + options.sigma * options.sigma, peak = kappa * q * q * q / s2 * sqrt(2 * PI);
         const double *m = camera.world_to_camera;
         for (int i = 0; i < SIDE * SIDE; i++) {
@@ -74,10 +74,7 @@ TEST_ON(test_blob, 2) {
             const double truth = peak * exp(-d2 / (2 * s2));
             assert_true(fabs(optical_depth(&image, (size_t)i) - truth) < (far ? 0.012 : 2e-4) * peak);
         }
-        ewa_image_free(&image);
     }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Through single voxels and thin tubes, near enough for large cone angles.
@@ -85,9 +82,9 @@ TEST_ON(test_marched, 2) {
     static const uint32_t dims[3] = {16, 16, 16};
     enum { SIDE = 48 };
     const double half = 6;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.2f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     const march_scene scene = {.volume = &volume, .extinction = (double)0.2f, .sigma = 0.6, .step = 0.1};
     const ewa_camera camera = scene_camera(SIDE, SIDE, DIRECTION, 20);
     double largest = 0, errors[2] = {0, 0}, truth[SIDE * SIDE];
@@ -99,17 +96,14 @@ TEST_ON(test_marched, 2) {
         WITH_DEFAULTS(ewa_volume_options, options);
         options.method = EWA_VOLUME_SPLATS, options.index = (ewa_volume_index)index;
         options.prefilter_px = 0, options.cutoff = 4, options.minimum_transmittance = 0;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         for (int i = 0; i < SIDE * SIDE; i++)
             errors[index] = fmax(errors[index], fabs(optical_depth(&image, (size_t)i) - truth[i]));
-        ewa_image_free(&image);
     }
     assert_true(largest > 0.5);
     assert_true(errors[EWA_INDEX_EXACT] < 5e-4 * largest);
     assert_true(errors[EWA_INDEX_TABLE] > 5 * errors[EWA_INDEX_EXACT]); // off the axis it is not exact
     assert_true(errors[EWA_INDEX_TABLE] < 0.05 * largest);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Largest changes between pictures of a turning box within 0.3 degrees of the diagonal, and elsewhere.
@@ -137,19 +131,17 @@ static void turn_past_diagonal(ewa_context *context, const ewa_voxels *voxels, b
 TEST_ON(test_no_popping, 2) {
     static const uint32_t dims[3] = {32, 32, 32};
     static const double sides[2] = {4, 13};
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_checker, sides);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_checker, sides);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
     transfer.points[0] = (ewa_transfer_point){0.75, {0.9f, 0.2f, 0.1f}, 0.5f};
     transfer.points[1] = (ewa_transfer_point){2.25, {0.9f, 0.9f, 0.6f}, 0.5f};
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (int ortho = 0; ortho < 2; ortho++) {
         double near, elsewhere;
         turn_past_diagonal(context, voxels, ortho, &near, &elsewhere);
         if (!(near < 1.05 * elsewhere)) print_message("%g near 45 degrees, %g elsewhere\n", near, elsewhere);
         assert_true(near < 1.05 * elsewhere);
     }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -42,10 +42,10 @@ TEST_ON(test_marched, 2) {
     static const double aheads[][3] = {{0, 0, -1}, {0.6, 0.5, 1}, {1, 0.1, 0.2}};
     enum { WIDTH = 16, HEIGHT = 12 };
     const double half = 6;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
     for (int i = 0; i < 15 * 14 * 16; i++) ((float *)volume.voxels)[i] += 0.3f; // fog as well
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.15f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     const march_scene scene = {.volume = &volume, .extinction = (double)0.15f, .sigma = 0.6, .step = 0.1};
     double largest = 0, maximum[2] = {0, 0};
     for (int view = 0; view < 15; view++) {
@@ -69,8 +69,6 @@ TEST_ON(test_marched, 2) {
     print_message("depths up to %g; errors %g, reference %g\n", largest, maximum[0], maximum[1]);
     assert_true(largest > 1);
     assert_true(maximum[0] < 5e-4 * largest && maximum[1] < 5e-4 * largest);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// The largest difference from the reference of pictures from within.
@@ -79,11 +77,12 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
     static const double aheads[][3] = {{0.7, 0.4, -1}, {-0.2, -0.9, 0.3}, {0, 0, 1}};
     enum { WIDTH = 47, HEIGHT = 37 };
     const double half = 8;
-    ewa_context *context = check_context(2, NULL);
-    ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
     for (int i = 0; i < 21 * 18 * 23; i++) ((float *)volume.voxels)[i] += 0.05f * (float)(i % 3);
     const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.7f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(check_free)
     float *depth = malloc(WIDTH * HEIGHT * sizeof *depth), *rgba = calloc(WIDTH * HEIGHT * 4, sizeof *rgba);
     assert_true(depth && rgba);
     for (int i = 0; i < WIDTH * HEIGHT; i++) depth[i] = 0.5f + 0.03f * (float)(i % WIDTH);
@@ -92,20 +91,13 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
     for (int view = 0; view < 6; view++) {
         const double eye[3] = {2.3 * view - 6.1, 3.7 - 1.1 * view, 0.9 * view - 2};
         const ewa_camera camera = camera_at(WIDTH, HEIGHT, eye, aheads[view % 3], fov_deg);
-        ewa_image fast = scene_draw(context, voxels, &camera, &options);
-        ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
+        OWNED(ewa_image_free) ewa_image fast = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
         const image_difference difference = image_compare(&fast, &slow, 0);
         maximum = fmax(maximum, difference.maximum);
         for (int i = 3; i < 4 * WIDTH * HEIGHT; i += 4) sum += (double)slow.pixels[i];
-        ewa_image_free(&fast);
-        ewa_image_free(&slow);
     }
     assert_true(sum > 1000);
-    free(depth);
-    free(rgba);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
     return maximum;
 }
 
@@ -134,11 +126,11 @@ TEST_ON(test_moving, 2) {
     static const double ahead[3] = {0.1, 0.05, -1};
     enum { SIDE = 64, STEPS = 160 };
     const double sides[2] = {3, 11};
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_checker, sides);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_checker, sides);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
     transfer.points[0] = (ewa_transfer_point){0.75, {0.9f, 0.2f, 0.1f}, 0.1f};
     transfer.points[1] = (ewa_transfer_point){2.25, {0.2f, 0.9f, 0.6f}, 0.1f};
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     ewa_image before = {0};
     double maximum = 0, mean = 0;
     for (int step = 0; step < STEPS; step++) {
@@ -156,8 +148,6 @@ TEST_ON(test_moving, 2) {
     ewa_image_free(&before);
     print_message("change from step to step: mean %g, at most %g\n", mean, maximum);
     assert_true(mean > 1e-4 && maximum < 2.5 * mean);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Within homogeneous fog, a plane at any distance shows through exp(-kappa d), however near it is.
@@ -166,22 +156,19 @@ TEST_ON(test_plane_in_fog, 2) {
     static const double eye[3] = {0.2, 0.1, 0.3}, ahead[3] = {0, 0, -1};
     enum { SIDE = 32 };
     const double kappa = 0.2;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     ewa_camera camera = camera_at(SIDE, SIDE, eye, ahead, 20);
     float depth[SIDE * SIDE], rgba[4 * SIDE * SIDE] = {0};
     ewa_volume_options options = defaults();
     options.surface_depth = depth, options.surface_rgba = rgba;
     for (double d = 1.5; d < 15; d += 0.7) {
         for (int i = 0; i < SIDE * SIDE; i++) depth[i] = (float)d;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         const double through = 1 - (double)image.pixels[4 * (SIDE / 2 * SIDE + SIDE / 2) + 3];
         if (fabs(through - exp(-kappa * d)) > 0.01) fail_msg("%g: %g, not %g", d, through, exp(-kappa * d));
-        ewa_image_free(&image);
     }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// The same bytes from any number of threads and any instruction set, and nothing to see through from within.
@@ -189,19 +176,20 @@ TEST(test_same_bytes) {
     static const uint32_t dims[3] = {30, 30, 30};
     static const double eye[3] = {3.2, -4.1, 2.2}, ahead[3] = {-0.4, 0.7, -1};
     enum { WIDTH = 150, HEIGHT = 90, FLOATS = 4 * WIDTH * HEIGHT };
-    float *first = NULL;
+    OWNED(check_free) float *first = NULL;
     for (int variant = 0; variant < 4; variant++) {
+        OWNED(ewa_context_destroy)
         ewa_context *context = check_context_of(variant == 1 ? 3 : 1, variant == 2   ? EWA_CPU_AVX2
                                                                       : variant == 3 ? 0
                                                                                      : EWA_CPU_ALL);
-        ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+        OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
         const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 9);
-        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
         const ewa_camera camera = camera_at(WIDTH, HEIGHT, eye, ahead, 75);
         ewa_volume_options options = defaults();
         options.shading = EWA_SHADING_PHONG;
         options.minimum_transmittance = variant == 0 ? 1.0 / 512 : 0;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         for (int i = 3; i < FLOATS; i += 4) assert_true(image.pixels[i] > 1 - 1.0f / 511);
         if (variant > 1) assert_memory_equal(image.pixels, first, FLOATS * sizeof(float));
         if (variant == 1) {
@@ -209,12 +197,7 @@ TEST(test_same_bytes) {
             assert_non_null(first);
             memcpy(first, image.pixels, FLOATS * sizeof *first);
         }
-        ewa_image_free(&image);
-        ewa_voxels_destroy(&voxels);
-        ewa_volume_free(&volume);
-        ewa_context_destroy(&context);
     }
-    free(first);
 }
 
 /// The picture does not depend on the unit of the world, nor on the camera's: scaled by a power of two, every
@@ -225,19 +208,20 @@ TEST(test_scales) {
     static const double scales[] = {1, 0x1p-46, 0x1p43, 0x1p-100, 0x1p100, 0x1p-400, 0x1p400};
     enum { WIDTH = 40, HEIGHT = 34, PIXELS = WIDTH * HEIGHT };
     const double half = 8;
-    ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(check_free)
     float *first = malloc(3 * 4 * PIXELS * sizeof *first), *first_depth = malloc(3 * PIXELS * sizeof *first);
-    float *pixels = malloc(4 * PIXELS * sizeof *pixels), *depth = malloc(PIXELS * sizeof *depth);
+    OWNED(check_free) float *pixels = malloc(4 * PIXELS * sizeof *pixels), *depth = malloc(PIXELS * sizeof *depth);
     assert_true(first && first_depth && pixels && depth);
     for (size_t n = 0; n < 2 * sizeof scales / sizeof scales[0]; n++) {
         const double world = scales[n / 2], of_camera = n % 2 ? 0x1p-30 : 1, place = world * of_camera;
-        ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
+        OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
         for (int i = 0; i < 12; i++) volume.index_to_world[i] *= world;
         ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.7f);
         transfer.unit_length_world = world;
         transfer.gradient_low = 0.1 / world, transfer.gradient_high = 0.6 / world;
-        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
-        ewa_volume_renderer *renderer;
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        OWNED(ewa_volume_renderer_destroy) ewa_volume_renderer *renderer;
         assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
         for (int view = 0; view < 3; view++) { // from without, from within, orthographic
             const double eye[3] = {view == 1 ? 2 : -16, view == 1 ? 1 : -12, view == 1 ? 0.5 : 40};
@@ -261,20 +245,11 @@ TEST(test_scales) {
                 assert_true(depth[i] == (float)((double)first_depth[view * PIXELS + i] * place));
             // And the reference, in doubles, sees the same.
             ewa_image fast = {.context = context, WIDTH, HEIGHT, 4, pixels};
-            ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
+            OWNED(ewa_image_free) ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
             const image_difference difference = image_compare(&fast, &slow, 0);
             assert_true(difference.psnr_db > 40);
-            ewa_image_free(&slow);
         }
-        ewa_volume_renderer_destroy(&renderer);
-        ewa_voxels_destroy(&voxels);
-        ewa_volume_free(&volume);
     }
-    free(first);
-    free(first_depth);
-    free(pixels);
-    free(depth);
-    ewa_context_destroy(&context);
 }
 
 /// From as far away as cameras can be, and with any focal length, pictures are numbers.
@@ -282,9 +257,9 @@ TEST_ON(test_extremes, 1) {
     static const uint32_t dims[3] = {8, 8, 8};
     static const double eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
     enum { SIDE = 16 };
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (int power = -320; power <= 300; power += 31)
         for (int focal = 0; focal < 3; focal++)
             for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++) {
@@ -305,8 +280,6 @@ TEST_ON(test_extremes, 1) {
                 ewa_image_free(&images[0]);
                 ewa_image_free(&images[1]);
             }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// The angle between two directions, free of cancellation.

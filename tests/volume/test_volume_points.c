@@ -59,10 +59,10 @@ static ewa_camera look(double distance, double focal_px, double shift_px) {
 TEST_ON(test_single_voxels, 1) {
     static const uint32_t dims[3] = {3, 3, 3};
     const double kappa = 0.02, spacing[3] = {1.3, 1.3, 1.3}, cell = 1.3 * 1.3 * 1.3;
-    ewa_volume volume = scene_volume(context, dims, spacing, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, spacing, scene_ones, NULL);
     for (int i = 0; i < 27; i++) ((float *)volume.voxels)[i] = i == 13;
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (int n = 0; n < 24; n++) {
         const bool points = n % 2, ortho = n / 2 % 2;
         const double shift = 0.37 * (n / 4), prefilter = n < 12 ? 0.35 : 0.55, distance = 40 + 3 * n;
@@ -73,7 +73,7 @@ TEST_ON(test_single_voxels, 1) {
         ewa_volume_options options = defaults();
         options.method = points ? EWA_VOLUME_POINTS : EWA_VOLUME_SPLATS;
         options.prefilter_px = prefilter;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         const footprint f = measure(&image);
         const double mass = kappa * cell * focal * focal;
         expect("mass", f.mass, mass, 0.005 * mass);
@@ -85,7 +85,6 @@ TEST_ON(test_single_voxels, 1) {
         for (int k = 0; k < 2; k++)
             expect("variance", f.variance[k], points ? whole : kept * whole,
                    points ? 0.08 * whole : 0.02 * whole);
-        ewa_image_free(&image);
     }
     // Off the axis the length of the way through it grows, and its area.
     const double place[3] = {18, -11, 0}, distance = 30;
@@ -98,14 +97,11 @@ TEST_ON(test_single_voxels, 1) {
             camera.cy_px -= camera.fy_px * place[1] / distance;
         ewa_volume_options options = defaults();
         options.method = points ? EWA_VOLUME_POINTS : EWA_VOLUME_SPLATS;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         const double length = sqrt(place[0] * place[0] + place[1] * place[1] + distance * distance);
         const double mass = kappa * cell * (0.7 / 1.3) * (0.7 / 1.3) * length / distance;
         expect("mass off the axis", measure(&image).mass, mass, 0.02 * mass);
-        ewa_image_free(&image);
     }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Voxels are points while they are at most 1.2 px apart and their filter at most 0.8 px wide.
@@ -118,9 +114,9 @@ TEST_ON(test_threshold, 1) {
         {1.19, 0.3, 1.2, true}, {1.21, 0.3, 1.2, false}, {0.87, 0.6, 1.2, true},   {0.89, 0.6, 1.2, false},
         {0.69, 0.3, 0.7, true}, {0.71, 0.3, 0.7, false}, {0.01, 0.85, 1.2, false}, {0.01, 0.3, 0, false},
     };
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.1f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int ortho = 0; ortho < 2; ortho++) {
             // All voxels are nearly as far away as the middle.
@@ -132,14 +128,12 @@ TEST_ON(test_threshold, 1) {
             expect("share of points", scene_point_share(context, voxels, &camera, &options), cases[i].points,
                    0);
         }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Coarser levels hold the means of eight: in thin fog the same light, from the middle of these eight.
 TEST_ON(test_levels, 1) {
     static const uint32_t dims[3] = {4, 4, 4};
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     check_random random = {3};
     double light[3] = {0, 0, 0}, middle[2] = {0, 0}, all = 0;
     ewa_transfer transfer = {.point_count = 3, .unit_length_world = 1};
@@ -158,7 +152,7 @@ TEST_ON(test_levels, 1) {
     }
     WITH_DEFAULTS(ewa_voxels_options, voxels_options);
     voxels_options.level_count = 3;
-    ewa_voxels *voxels;
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels;
     assert_int_equal(ewa_voxels_create(&volume, &transfer, &voxels_options, &voxels), EWA_OK);
     const double step_px = 1.3, area = step_px * step_px;
     ewa_camera camera = look(100, step_px, 0);
@@ -166,7 +160,7 @@ TEST_ON(test_levels, 1) {
     for (uint32_t level = 0; level < 3; level++) {
         ewa_volume_options options = defaults();
         options.level = level;
-        ewa_image image = scene_draw(context, voxels, &camera, &options);
+        OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
         double sums[3] = {0, 0, 0};
         for (int i = 0; i < PIXELS; i++)
             for (int c = 0; c < 3; c++) sums[c] += (double)image.pixels[4 * i + c];
@@ -182,25 +176,23 @@ TEST_ON(test_levels, 1) {
             const double fine = 0.5 * SIDE + step_px * middle[k] / all, middle_px = 0.5 * SIDE;
             expect("middle", f.middle[k], level == 2 ? middle_px : fine, level == 1 ? 0.35 : 0.02);
         }
-        ewa_image_free(&image);
     }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Marked splats are red, in the reference as well; points keep their colours, to the bit.
 TEST_ON(test_marks, 1) {
     static const uint32_t dims[3] = {8, 8, 8};
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(0.2f, 0.9f, 0.4f, 0.05f);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     const ewa_camera camera = look(40, 60, 0);
     ewa_volume_options plain = defaults(), marked = defaults();
     marked.mark_splats = true;
     for (int points = 0; points < 2; points++) {
         plain.method = marked.method = points ? EWA_VOLUME_POINTS : EWA_VOLUME_SPLATS;
+        OWNED(ewa_image_free)
         ewa_image before = scene_draw(context, voxels, &camera, &plain), after = scene_draw(context, voxels, &camera, &marked);
-        ewa_image reference = scene_draw_reference(&volume, &transfer, &camera, &marked);
+        OWNED(ewa_image_free) ewa_image reference = scene_draw_reference(&volume, &transfer, &camera, &marked);
         for (int i = 0; i < PIXELS; i++) {
             const float *was = before.pixels + 4 * i, *is = after.pixels + 4 * i, alpha = is[3];
             assert_true(alpha == was[3]);
@@ -213,28 +205,20 @@ TEST_ON(test_marks, 1) {
                     expect("the reference's", (double)reference.pixels[4 * i + c], color * (double)alpha, 1e-4);
                 }
         }
-        ewa_image_free(&reference);
-        ewa_image_free(&before);
-        ewa_image_free(&after);
     }
     // Both at once: the near half of a long volume is of splats.
     static const uint32_t long_dims[3] = {4, 4, 60};
-    ewa_volume row = scene_volume(context, long_dims, UNIT, scene_ones, NULL);
-    ewa_voxels *mixed = scene_voxels(&row, &transfer);
+    OWNED(ewa_volume_free) ewa_volume row = scene_volume(context, long_dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_voxels_destroy) ewa_voxels *mixed = scene_voxels(&row, &transfer);
     const ewa_camera ahead = look(60, 72, 0); // 2.4 px at 30, 0.8 px at 90
     marked.method = EWA_VOLUME_HYBRID;
     const double share = scene_point_share(context, mixed, &ahead, &marked);
-    ewa_image image = scene_draw(context, mixed, &ahead, &marked);
+    OWNED(ewa_image_free) ewa_image image = scene_draw(context, mixed, &ahead, &marked);
     double sums[3] = {0};
     for (int i = 0; i < PIXELS; i++)
         for (int c = 0; c < 3; c++) sums[c] += (double)image.pixels[4 * i + c];
     assert_true(share > 0.3 && share < 0.7);
     assert_true(sums[0] > sums[1] && sums[1] > 0.1 * sums[0]); // red, and green behind it
-    ewa_image_free(&image);
-    ewa_voxels_destroy(&mixed);
-    ewa_volume_free(&row);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

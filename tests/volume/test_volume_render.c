@@ -31,24 +31,19 @@ static double error_of(const double spacing[3], double distance, ewa_volume_opti
     static const uint32_t dims[3] = {23, 18, 21};
     static const double direction[3] = {0.7, 0.4, -1};
     const double half = 8;
-    ewa_context *context = check_context(2, NULL);
-    ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, spacing, scene_vessels, &half);
     const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.7f);
     ewa_camera camera = scene_camera(93, 71, direction, distance);
     if (ortho) assert_int_equal(ewa_camera_set_ortho(&camera, distance * 0.7), EWA_OK);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     options.minimum_transmittance = 0;
-    ewa_image fast = scene_draw(context, voxels, &camera, &options);
-    ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
+    OWNED(ewa_image_free) ewa_image fast = scene_draw(context, voxels, &camera, &options);
+    OWNED(ewa_image_free) ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
     const double error = largest_difference(&fast, &slow);
     double sum = 0;
     for (int i = 3; i < 4 * 93 * 71; i += 4) sum += (double)slow.pixels[i];
     assert_true(sum > 100); // there is something to compare
-    ewa_image_free(&fast);
-    ewa_image_free(&slow);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
     return error;
 }
 
@@ -80,9 +75,9 @@ TEST_ON(test_slab, 2) {
     static const uint32_t dims[3] = {64, 64, 12};
     static const double direction[3] = {0, 0, -1};
     const double kappa = 0.11, truth = 1 - exp(-kappa * 12);
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
         for (int sight = 0; sight < 3; sight++) {
             const double distance = sight == 0 ? 40 : sight == 1 ? 90 : 150; // 2.5, 1, 0.6 px
@@ -90,7 +85,7 @@ TEST_ON(test_slab, 2) {
             ewa_camera camera = scene_camera(64, 64, direction, distance);
             ewa_volume_options options = defaults();
             options.method = (ewa_volume_method)method;
-            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
             for (int y = 28; y < 36; y++)
                 for (int x = 28; x < 36; x++) {
                     const double alpha = (double)image.pixels[4 * (64 * y + x) + 3];
@@ -99,10 +94,7 @@ TEST_ON(test_slab, 2) {
                         print_message("%d %d: %g, not %g\n", method, sight, alpha, truth);
                     assert_true(fabs(alpha - truth) < 0.006);
                 }
-            ewa_image_free(&image);
         }
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// The same bytes from any number of threads and any instruction set.
@@ -110,15 +102,16 @@ TEST(test_same_bytes) {
     static const uint32_t dims[3] = {60, 60, 60};
     static const double direction[3] = {0.7, 0.4, -1};
     const double half = 28;
-    uint8_t *first = NULL;
+    OWNED(check_free) uint8_t *first = NULL;
     const size_t bytes = 4 * 201 * 150 * sizeof(float);
     for (int variant = 0; variant < 4; variant++) {
+        OWNED(ewa_context_destroy)
         ewa_context *context = check_context_of(variant == 1 ? 3 : 1, variant == 2   ? EWA_CPU_AVX2
                                                                       : variant == 3 ? 0
                                                                                      : EWA_CPU_ALL);
-        ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
+        OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
         const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 0.9f);
-        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
         uint8_t *all = malloc(4 * bytes);
         assert_non_null(all);
         for (int sight = 0; sight < 4; sight++) {
@@ -126,20 +119,15 @@ TEST(test_same_bytes) {
             ewa_volume_options options = defaults();
             options.index = sight == 1 ? EWA_INDEX_TABLE : EWA_INDEX_EXACT;
             options.shading = sight & 1 ? EWA_SHADING_PHONG : EWA_SHADING_NONE;
-            ewa_image image = scene_draw(context, voxels, &camera, &options);
+            OWNED(ewa_image_free) ewa_image image = scene_draw(context, voxels, &camera, &options);
             memcpy(all + (size_t)sight * bytes, image.pixels, bytes);
-            ewa_image_free(&image);
         }
         if (first)
             assert_memory_equal(first, all, 4 * bytes);
         else
             first = all;
         if (first != all) free(all);
-        ewa_voxels_destroy(&voxels);
-        ewa_volume_free(&volume);
-        ewa_context_destroy(&context);
     }
-    free(first);
 }
 
 /// What is culled because it is hidden does not show.
@@ -147,10 +135,10 @@ TEST_ON(test_culling_changes_nothing, 2) {
     static const uint32_t dims[3] = {48, 48, 48};
     static const double direction[3] = {0.3, 0.2, -1};
     const double radius = 20;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
     const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 3);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
-    ewa_volume_renderer *renderer;
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_volume_renderer_destroy) ewa_volume_renderer *renderer;
     assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
     for (int sight = 0; sight < 2; sight++) {
         const ewa_camera camera = scene_camera(150, 150, direction, sight ? 60 : 260);
@@ -171,9 +159,6 @@ TEST_ON(test_culling_changes_nothing, 2) {
         free(pixels[0]);
         free(pixels[1]);
     }
-    ewa_volume_renderer_destroy(&renderer);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Reports of progress, and the one that says stop (0: none).
@@ -194,14 +179,14 @@ TEST(test_stops_between_tiles) {
     const double radius = 12;
     for (uint32_t threads = 1; threads <= 2; threads++) {
         stopper self = {0};
-        ewa_context *context = check_context_telling(threads, on_progress, &self);
-        ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
+        OWNED(ewa_context_destroy) ewa_context *context = check_context_telling(threads, on_progress, &self);
+        OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
         const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 3);
-        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
         const ewa_camera camera = scene_camera(300, 300, direction, 60);
-        ewa_volume_renderer *renderer;
+        OWNED(ewa_volume_renderer_destroy) ewa_volume_renderer *renderer;
         assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
-        float *pixels = malloc(4 * 300 * 300 * sizeof *pixels);
+        OWNED(check_free) float *pixels = malloc(4 * 300 * 300 * sizeof *pixels);
         const ewa_frame frame = {.rgba = pixels};
         const ewa_volume_options options = defaults();
         for (self.stop_at = 1; self.stop_at <= 4; self.stop_at++, self.reports = 0) {
@@ -211,11 +196,6 @@ TEST(test_stops_between_tiles) {
         }
         self.stop_at = 0;
         assert_int_equal(ewa_volume_render(renderer, voxels, &camera, &options, &frame, NULL), EWA_OK);
-        free(pixels);
-        ewa_volume_renderer_destroy(&renderer);
-        ewa_voxels_destroy(&voxels);
-        ewa_volume_free(&volume);
-        ewa_context_destroy(&context);
     }
 }
 
@@ -259,14 +239,13 @@ TEST(test_surface_in_fog) {
             ewa_volume_options options = defaults();
             options.method = (ewa_volume_method)method;
             options.surface_depth = depth, options.surface_rgba = rgba;
-            ewa_image image = scene_draw(f.context, f.voxels, &camera, &options);
+            OWNED(ewa_image_free) ewa_image image = scene_draw(f.context, f.voxels, &camera, &options);
             const float *middle = image.pixels + 4 * (SIDE / 2 * SIDE + SIDE / 2);
             const double through = 1 - (double)middle[0], truth = exp(-KAPPA * d);
             if (fabs(through - truth) > 0.01)
                 print_message("%d, %g: %g, not %g\n", method, d, through, truth);
             assert_true(fabs(through - truth) < 0.01);
             assert_true(fabsf(middle[1] - 1) < 1e-5f && fabsf(middle[3] - 1) < 1e-5f);
-            ewa_image_free(&image);
         }
     free_fog(&f);
 }
@@ -284,13 +263,12 @@ TEST(test_sections) {
             options.section_count = 2; // from low to 13 along z, the eye being below
             options.section_planes[0][2] = 2, options.section_planes[0][3] = -2 * low;
             options.section_planes[1][2] = -1, options.section_planes[1][3] = 13;
-            ewa_image image = scene_draw(f.context, f.voxels, &camera, &options);
+            OWNED(ewa_image_free) ewa_image image = scene_draw(f.context, f.voxels, &camera, &options);
             const double through = 1 - (double)image.pixels[4 * (SIDE / 2 * SIDE + SIDE / 2) + 3];
             const double truth = exp(-KAPPA * (13 - low));
             if (fabs(through - truth) > 0.01)
                 print_message("%d, from %g: %g, not %g\n", method, low, through, truth);
             assert_true(fabs(through - truth) < 0.01);
-            ewa_image_free(&image);
         }
     const ewa_camera aside = scene_camera(SIDE, SIDE, (const double[3]){1, 0.4, -0.7}, 80);
     ewa_volume_options options = defaults();
@@ -313,11 +291,11 @@ TEST_ON(test_levels, 2) {
     static const uint32_t dims[3] = {50, 50, 50};
     static const double direction[3] = {0.3, 0.2, -1};
     const double sigma = 9;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &sigma);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &sigma);
     const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 0.1f);
     WITH_DEFAULTS(ewa_voxels_options, voxels_options);
     voxels_options.level_count = 3;
-    ewa_voxels *voxels;
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels;
     assert_int_equal(ewa_voxels_create(&volume, &transfer, &voxels_options, &voxels), EWA_OK);
     const ewa_camera camera = scene_camera(100, 100, direction, 150);
     ewa_volume_options options = defaults();
@@ -329,8 +307,6 @@ TEST_ON(test_levels, 2) {
     assert_true(psnr_db(&images[0], &images[1]) > 40);
     assert_true(psnr_db(&images[0], &images[2]) > 30);
     for (int i = 0; i < 3; i++) ewa_image_free(&images[i]);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -15,7 +15,7 @@ static const double UNIT[3] = {1, 1, 1}, DIRECTION[3] = {0.7, 0.4, -1};
 TEST_ON(test_counts_and_bytes, 2) {
     static const uint32_t dims[3] = {61, 70, 83};
     const double radius = 22;
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
     uint64_t occupied = 0;
     for (size_t i = 0; i < (size_t)61 * 70 * 83; i++) occupied += ((float *)volume.voxels)[i] > 0;
@@ -33,7 +33,6 @@ TEST_ON(test_counts_and_bytes, 2) {
     }
     ewa_voxels_destroy(&voxels);
     assert_null(voxels);
-    ewa_volume_free(&volume);
 }
 
 /// Where a volume is does not matter, nor in which type its numbers are, nor what is NaN or out of range.
@@ -46,9 +45,9 @@ TEST_ON(test_types_and_holes, 2) {
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     const ewa_camera camera = scene_camera(60, 60, DIRECTION, 60);
     WITH_DEFAULTS(ewa_volume_options, options);
-    ewa_image first = {0};
+    OWNED(ewa_image_free) ewa_image first = {0};
     for (int t = 0; t < 5; t++) {
-        ewa_volume volume;
+        OWNED(ewa_volume_free) ewa_volume volume;
         assert_int_equal(ewa_volume_create(context, dims, types[t], &volume), EWA_OK);
         for (int i = 0; i < COUNT; i++) {
             const int value = i % 125;
@@ -69,7 +68,7 @@ TEST_ON(test_types_and_holes, 2) {
                 ((float *)volume.voxels)[i] = value > 100 ? NAN : (float)value;
             }
         }
-        ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
         ewa_image image = scene_draw(context, voxels, &camera, &options);
         for (int i = 0; i < 4 * 60 * 60; i++) assert_true(isfinite(image.pixels[i]));
         if (t) {
@@ -78,10 +77,7 @@ TEST_ON(test_types_and_holes, 2) {
         } else {
             first = image;
         }
-        ewa_voxels_destroy(&voxels);
-        ewa_volume_free(&volume);
     }
-    ewa_image_free(&first);
 }
 
 static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_transfer *transfer,
@@ -157,8 +153,8 @@ TEST_ON(test_gradients_up_to_the_border, 1) {
 TEST(test_bad_input) {
     static const uint32_t dims[3] = {4, 4, 4};
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     ewa_transfer transfer = scene_linear(1, 1, 1, 1);
     ewa_volume wrong = volume;
     wrong.index_to_world[5] = 0;
@@ -178,18 +174,16 @@ TEST(test_bad_input) {
     refuse(context, &volume, &transfer, &log, "point 1");
     transfer.point_count = 1;
     refuse(context, &volume, &transfer, &log, "1 points");
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_bad_options) {
     static const uint32_t dims[3] = {4, 4, 4};
     check_log log = {0};
-    ewa_context *context = check_context(1, &log);
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(1, &log);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
-    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
-    ewa_volume_renderer *renderer;
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    OWNED(ewa_volume_renderer_destroy) ewa_volume_renderer *renderer;
     assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
     const ewa_camera camera = scene_camera(8, 8, DIRECTION, 20);
     float pixels[4 * 8 * 8];
@@ -248,22 +242,18 @@ TEST(test_bad_options) {
         assert_int_equal(ewa_volume_render_reference(&volume, &transfer, &camera, &bad, &frame),
                          EWA_ERROR_ARGUMENT);
     }
-    ewa_volume_renderer_destroy(&renderer);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Everything from volume to picture; the status of what fails first.
 static ewa_status draw_all(ewa_context *context, uint32_t frames, const check_memory *memory, long *calls) {
     static const uint32_t dims[3] = {20, 20, 20};
-    ewa_volume volume;
+    OWNED(ewa_volume_free) ewa_volume volume;
     ewa_status status = ewa_volume_create(context, dims, EWA_U8, &volume);
     if (status != EWA_OK) return status;
     for (int i = 0; i < 8000; i++) ((uint8_t *)volume.voxels)[i] = (uint8_t)(i % 3);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
-    ewa_voxels *voxels = NULL;
-    ewa_volume_renderer *renderer = NULL;
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = NULL;
+    OWNED(ewa_volume_renderer_destroy) ewa_volume_renderer *renderer = NULL;
     float pixels[4 * 70 * 70];
     float surface_depth[70 * 70], surface_rgba[4 * 70 * 70];
     for (int i = 0; i < 70 * 70; i++) surface_depth[i] = 2 + (float)(i % 70);
@@ -283,9 +273,6 @@ static ewa_status draw_all(ewa_context *context, uint32_t frames, const check_me
     }
     for (int view = 0; view < 2 && status == EWA_OK; view++)
         status = ewa_volume_render_reference(&volume, &transfer, &cameras[view], &options[view], &frame);
-    ewa_volume_renderer_destroy(&renderer);
-    ewa_voxels_destroy(&voxels);
-    ewa_volume_free(&volume);
     return status;
 }
 
@@ -315,10 +302,10 @@ TEST(test_failing_memory) {
 /// From within, from behind, from far away, of nothing: finite pictures.
 TEST_ON(test_odd_views, 2) {
     static const uint32_t dims[3] = {30, 30, 30};
-    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfers[2] = {scene_linear(1, 1, 1, 0.2f), scene_linear(1, 1, 1, 0)};
     for (int empty = 0; empty < 2; empty++) {
-        ewa_voxels *voxels = scene_voxels(&volume, &transfers[empty]);
+        OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfers[empty]);
         static const double distances[] = {0.1, 3, 15, 17, 1e4, 1e9};
         for (int view = 0; view < 12; view++) {
             ewa_camera camera = scene_camera(70, 50, DIRECTION, distances[view % 6]);
@@ -336,9 +323,7 @@ TEST_ON(test_odd_views, 2) {
             if (!empty && view < 2) assert_true(sum > 0); // the fog around the eye
             ewa_image_free(&image);
         }
-        ewa_voxels_destroy(&voxels);
     }
-    ewa_volume_free(&volume);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
