@@ -128,7 +128,7 @@ static int build(ewa_context *context, int count, char **words) {
            (unsigned long long)stats.point_count, (unsigned long long)stats.left_out_count,
            (unsigned long long)stats.merged_count, stats.node_count, stats.level_count,
            (double)stats.temporary_bytes / (double)stats.point_count, peak_mib());
-    printf("survey %.1f s, distribute %.1f s, estimate %.1f s, nodes %.1f s, merge %.1f s, all %.1f s: %.3f "
+    printf("statistics %.1f s, distribute %.1f s, estimate %.1f s, nodes %.1f s, merge %.1f s, all %.1f s: %.3f "
            "M points/s\n",
            stats.statistics_s, stats.distribute_s, stats.estimate_s, stats.write_s, stats.merge_s,
            stats.total_s, 1e-6 * (double)stats.point_count / stats.total_s);

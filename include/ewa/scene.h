@@ -277,7 +277,7 @@ EWA_API ewa_status ewa_scene_points(ewa_scene *scene, ewa_cloud **cloud);
 EWA_API ewa_status ewa_scene_gaussians(const ewa_scene *scene, ewa_gaussians *gaussians, double up_world[3]);
 
 /// Reads the file of the visible volume again: the smallest grid around those voxels that no region hides and no section cuts
-/// away, moved as the item is. Others within have the least number that the transfer function leaves empty, of floats NaN. The
+/// away, moved as the item is. Others within have the lowest number that the transfer function leaves empty, of floats NaN. The
 /// caller frees `*volume`, zeroed after a failure. Errors: EWA_ERROR_ARGUMENT (not one volume is visible, nothing of it is left),
 /// EWA_ERROR_UNSUPPORTED (it was made in memory), those of ewa_volume_load() and ewa_transfer_choose().
 EWA_API ewa_status ewa_scene_volume(const ewa_scene *scene, ewa_volume *volume);

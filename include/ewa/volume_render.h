@@ -32,7 +32,7 @@ EWA_API void ewa_voxels_options_init(ewa_voxels_options *options, size_t struct_
 /// context may draw it.
 typedef struct ewa_voxels ewa_voxels;
 
-/// Classifies a volume. Blocks whose values the transfer function leaves empty are skipped by their least and
+/// Classifies a volume. Blocks whose values the transfer function leaves empty are skipped by their lowest and
 /// largest value; voxels that are NaN are empty. Neither volume nor transfer function is needed afterwards.
 /// `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (index_to_world not finite or not invertible, points of
 /// the transfer function out of order or not finite, options), EWA_ERROR_LIMIT (a dimension over 2^21),

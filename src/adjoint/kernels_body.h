@@ -73,9 +73,9 @@ typedef struct block_range {
     uint32_t first_column, end_column, first_row, end_row;
 } block_range;
 
-EIGHT uint32_t within(int32_t pixels, uint32_t side, uint32_t most) {
+EIGHT uint32_t within(int32_t pixels, uint32_t side, uint32_t maximum) {
     const uint32_t block = pixels < 0 ? 0 : (uint32_t)pixels / side;
-    return block < most ? block : most;
+    return block < maximum ? block : maximum;
 }
 
 EIGHT block_range blocks_of(const ewa_adjoint_area *area, const ewa_reference_splat *splat) {
@@ -184,10 +184,10 @@ static double find(const ewa_adjoint_area *area, const ewa_reference_splat *cons
     d8 farthest = d8_set(-__builtin_inf());
     for (size_t i = 0; i < (size_t)area->columns * area->rows; i++)
         farthest = d8_max(farthest, d8_load(area->planes + (i * EWA_PLANES + EWA_PLANE_BOUND) * LANES));
-    double lanes[LANES], most = -__builtin_inf();
+    double lanes[LANES], maximum = -__builtin_inf();
     d8_store(lanes, farthest);
-    for (int i = 0; i < LANES; i++) most = lanes[i] > most ? lanes[i] : most;
-    return most;
+    for (int i = 0; i < LANES; i++) maximum = lanes[i] > maximum ? lanes[i] : maximum;
+    return maximum;
 }
 
 EIGHT void add(double *plane, d8 term) { d8_store(plane, d8_add(d8_load(plane), term)); }

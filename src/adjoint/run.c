@@ -351,8 +351,8 @@ static void pull_back_piece(void *data, uint32_t index, uint32_t worker) {
 /// Gives the workers what they need for the tiles.
 static ewa_status reserve(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
-    const uint32_t splats = (uint32_t)job->lists.largest, most = job->frame.resolve.layering.most;
-    job->surface_count = splats < most ? (splats > 0 ? splats : 1) : most;
+    const uint32_t splats = (uint32_t)job->lists.largest, max_layers = job->frame.resolve.layering.max_layers;
+    job->surface_count = splats < max_layers ? (splats > 0 ? splats : 1) : max_layers;
     const size_t pixels = (size_t)job->tiles.side_px * job->tiles.side_px, surfaces = job->surface_count;
     for (uint32_t i = 0; i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];

@@ -183,7 +183,7 @@ static void start_surface(const tile_work *w) {
 
 static bool is_merged(const tile_work *w, uint32_t surface) {
     const ewa_reference_layering *layering = &w->job->frame.resolve.layering;
-    return layering->merge_last && surface + 1 == layering->most;
+    return layering->merge_last && surface + 1 == layering->max_layers;
 }
 
 /// Where each splat counts in a surface.
@@ -377,12 +377,12 @@ static void gather_splats(const tile_work *w) {
     enum { AHEAD = 8 };
     const ewa_adjoint_job *job = w->job;
     const ewa_adjoint_scratch *s = w->scratch;
-    uint32_t most = 0;
-    for (uint32_t i = 0; i < w->surface_count; i++) most = s->reached[i] > most ? s->reached[i] : most;
-    for (uint32_t k = 0; k < most; k++) {
+    uint32_t maximum = 0;
+    for (uint32_t i = 0; i < w->surface_count; i++) maximum = s->reached[i] > maximum ? s->reached[i] : maximum;
+    for (uint32_t k = 0; k < maximum; k++) {
         double scales[EWA_MOMENT_COUNT];
         int64_t sums[EWA_MOMENT_COUNT] = {0};
-        if (k + AHEAD < most && counts_anywhere(w, k + AHEAD)) fetch_sums(w, k + AHEAD);
+        if (k + AHEAD < maximum && counts_anywhere(w, k + AHEAD)) fetch_sums(w, k + AHEAD);
         if (!counts_anywhere(w, k)) continue;
         ewa_adjoint_scales(job, s->order[k], scales);
         for (uint32_t i = 0; i < w->surface_count; i++) {

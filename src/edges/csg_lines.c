@@ -59,16 +59,16 @@ static double common_depth(ewa_vec3 a, ewa_vec3 b, double cutoff) {
 bool ewa_lines_exclude(const ewa_line_set *a, const ewa_line_set *b, double cutoff) {
     if (a->count == 0 || b->count == 0) return false;
     const double nothing = 0.02; // standard deviations
-    bool apart[2][2];
+    bool disjoint[2][2];
     for (uint32_t i = 0; i < a->count; i++)
         for (uint32_t k = 0; k < b->count; k++)
-            apart[i][k] = common_depth(a->line[i], b->line[k], cutoff) < nothing;
+            disjoint[i][k] = common_depth(a->line[i], b->line[k], cutoff) < nothing;
     for (uint32_t i = 0; i < (a->either ? a->count : 1); i++)
         for (uint32_t k = 0; k < (b->either ? b->count : 1); k++) {
             bool parted = false;
             for (uint32_t m = a->either ? i : 0; m < (a->either ? i + 1 : a->count); m++)
                 for (uint32_t n = b->either ? k : 0; n < (b->either ? k + 1 : b->count); n++)
-                    parted |= apart[m][n];
+                    parted |= disjoint[m][n];
             if (!parted) return false;
         }
     return true;

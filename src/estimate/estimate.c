@@ -253,9 +253,9 @@ static void settle(const estimate_job *job, local_batch *batch) {
         sizes.farthest[lane] = sqrtf(farthest2[from]);
         const float around = sizes.around[lane];
         const bool line = job->notes[place] & RADIUS_THIN;
-        const double apart = line ? LINE_LIMIT * (double)around
+        const double spacing = line ? LINE_LIMIT * (double)around
                                   : smaller(around, spread_of(batch->count[from], farthest2[from]));
-        sizes.limit[lane] = (float)(job->options->radius_limit * apart);
+        sizes.limit[lane] = (float)(job->options->radius_limit * spacing);
     }
     job->kernels->enclose(batch, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
                           sizes.limit, &s);

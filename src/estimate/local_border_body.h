@@ -117,14 +117,14 @@ static wf count_missing(local_batch *batch, uint32_t rows, const outward *out, w
 /// Spacings from the outermost neighbours to the end of the surface.
 static wf spacings_beyond(const local_batch *batch, uint32_t rows, const outward *out, wf spacing) {
     const wf width = wf_mul(spacing, wf_set(BORDER_WIDTH)), one = wf_set(1);
-    const wf least = wf_sub(out->reach, wf_mul(spacing, wf_set(BORDER_ROW_DEPTH))), own = count_of(batch);
+    const wf minimum = wf_sub(out->reach, wf_mul(spacing, wf_set(BORDER_ROW_DEPTH))), own = count_of(batch);
     wf count = wf_set(0);
     for (uint32_t i = 0; i < rows; i++) {
         const wf px = wf_load(batch->row[i].x), py = wf_load(batch->row[i].y);
         const wf along = wf_add(wf_mul(px, out->x), wf_mul(py, out->y)),
                  across = wf_sub(wf_mul(py, out->x), wf_mul(px, out->y));
         // Rows that a lane does not have are at its place, which may itself be among the outermost.
-        const wm outermost = wm_and(wf_le(least, along), wf_lt(wf_set((float)i), own));
+        const wm outermost = wm_and(wf_le(minimum, along), wf_lt(wf_set((float)i), own));
         count = wf_add(count, wf_keep(wm_and(outermost, wf_le(wf_abs(across), width)), one));
     }
     const wf slope = wf_set(1 / (BORDER_ROW_SURE - BORDER_ROW_LEAST));

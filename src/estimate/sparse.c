@@ -86,7 +86,7 @@ static uint64_t hash_place(const double p[3]) {
     return hash;
 }
 
-/// Brings SAMPLES places to the front, those of the least hashes, whatever the order of the points.
+/// Brings SAMPLES places to the front, those of the smallest hashes, whatever the order of the points.
 static void bring_samples(double (*places)[3], size_t count) {
     uint64_t hashes[SAMPLES];
     size_t kept = 0;

@@ -234,9 +234,9 @@ static void add_character(tile *to, const type_size *size, uint32_t code, double
     const ewa_glyph *mark = ewa_font_mark(code, &raised);
     add_letter(to, &(letter){size, glyph, pen_px, baseline_px});
     if (!mark) return;
-    const double aside_px = floor((inner_px(size, glyph) - inner_px(size, mark)) / 2.0);
+    const double offset_px = floor((inner_px(size, glyph) - inner_px(size, mark)) / 2.0);
     const int lift_px = raised ? nearest(EWA_FONT_RAISE * size->grid_px) : 0;
-    add_letter(to, &(letter){size, mark, pen_px + aside_px, baseline_px - lift_px});
+    add_letter(to, &(letter){size, mark, pen_px + offset_px, baseline_px - lift_px});
 }
 
 /// Draws what of a text, whose first letter stands at (left, baseline), lies in a tile.

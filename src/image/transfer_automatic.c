@@ -182,8 +182,8 @@ static int split(const material_map *map, int first) {
         below_moment += counts[i] * i;
         const double above = all - below;
         if (!(below > 0) || !(above > 0)) continue;
-        const double apart = below_moment / below - (moment - below_moment) / above;
-        const double between = below * above * apart * apart;
+        const double difference = below_moment / below - (moment - below_moment) / above;
+        const double between = below * above * difference * difference;
         if (between > best) {
             best = between;
             at = i + 1;
@@ -261,7 +261,7 @@ static ewa_status open_containers(const ewa_volume *volume, const material_map *
         ewa_volume_sight sight;
         EWA_TRY(look_at(volume, map, list, inner, &sight));
         const bool content = map->surfaces.above[list->edges[inner].at] > CONTENT_SHARE * map->surfaces.count;
-        if (content && sight.hidden > CONTAINER_SHARE && sight.apart > CONTAINER_SHARE) {
+        if (content && sight.hidden > CONTAINER_SHARE && sight.separated > CONTAINER_SHARE) {
             list->count -= inner;
             memmove(list->edges, list->edges + inner, (size_t)list->count * sizeof *list->edges);
             list->natural = list->count > 1;

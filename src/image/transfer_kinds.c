@@ -18,7 +18,7 @@ enum { BINS = EWA_SURFACE_BINS, SHELLS = 4, GREYS = 32 };
 /// Extinction per unit length of solid matter; that of a picture, whose one slice lets next to nothing through.
 static const double SOLID = 0.7, OPAQUE = 12;
 
-/// Share of the meetings of other labels from which on a label that comes before them surrounds them; the optical
+/// Share of the transitions to other labels from which on a label that comes before them surrounds them; the optical
 /// depth of such a label along a mean line of sight, shared by all of its kind.
 static const double AROUND = 0.6, AROUND_DEPTH = 0.5;
 

@@ -31,7 +31,7 @@ ewa_volume_kind ewa_volume_find_kind(const ewa_volume *volume, const ewa_volume_
 typedef struct ewa_label_sight {
     double voxels;  ///< of it on the lines of sight
     double entries; ///< lines that meet it
-    double before;  ///< share of the meetings of other labels that come after this one
+    double before;  ///< share of the transitions to other labels that come after this one
 } ewa_label_sight;
 
 /// Looks along a sample of the columns of each axis, from both ends; one result per code. Errors:

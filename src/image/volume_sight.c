@@ -12,7 +12,7 @@ enum { THICK = 3, RUN = 2 };
 /// Sums over lines of sight.
 typedef struct sight_sums {
     double outer, inner; ///< what is looked for
-    double hit, hidden, passed, apart;
+    double hit, hidden, passed, separated;
 } sight_sums;
 
 static void look_along(void *user, const float *at, ptrdiff_t step, uint32_t count) {
@@ -27,7 +27,7 @@ static void look_along(void *user, const float *at, ptrdiff_t step, uint32_t cou
             sums->hit++;
             sums->hidden += before >= THICK;
             sums->passed += before >= THICK ? before : 0;
-            sums->apart += gap;
+            sums->separated += gap;
             return;
         }
         const bool is_outer = value >= sums->outer; // not for a NaN
@@ -47,6 +47,6 @@ ewa_status ewa_volume_sight_measure(const ewa_volume *volume, double outer, doub
     sight->hit = sums.hit;
     sight->hidden = sums.hit > 0 ? sums.hidden / sums.hit : 0;
     sight->passed = sums.hidden > 0 ? sums.passed / sums.hidden : 0;
-    sight->apart = sums.hit > 0 ? sums.apart / sums.hit : 0;
+    sight->separated = sums.hit > 0 ? sums.separated / sums.hit : 0;
     return EWA_OK;
 }

@@ -34,7 +34,7 @@ typedef struct ewa_volume_sight {
     double hit;    ///< lines of sight that meet it
     double hidden; ///< share of these that pass three voxels or more of at least `outer` before
     double passed; ///< voxels of at least `outer` before, the mean of these that pass three or more
-    double apart;  ///< share of those that meet it and pass something of at least `outer`, then a gap of three voxels
+    double separated; ///< share of those that meet it and pass something of at least `outer`, then a gap of three voxels
 } ewa_volume_sight;
 
 /// Looks at a sample of the columns along each axis, from both ends. Errors: EWA_ERROR_MEMORY.

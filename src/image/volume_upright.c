@@ -110,8 +110,8 @@ static bool find_threshold(const voxel_sample *sample, double *threshold) {
         below += counts[b];
         below_moment += counts[b] * b;
         if (below == 0 || below == all) continue;
-        const double apart = below_moment / below - (moment - below_moment) / (all - below);
-        const double between = below * (all - below) * apart * apart;
+        const double difference = below_moment / below - (moment - below_moment) / (all - below);
+        const double between = below * (all - below) * difference * difference;
         if (between > best) {
             best = between;
             *threshold = low + (b + 1) * (high - low) / BINS;

@@ -25,7 +25,7 @@ typedef struct sheet {
     double weight, at[3], normal[3], color[3], alpha, curvature;
     double first[3], offset[3], moment, square; ///< w p, w n.p and w |p|^2, p from the first member, n its normal
     float first_normal[3];
-    double code; ///< of its members, where codes are kept apart
+    double code; ///< of its members, where codes are not mixed
 } sheet;
 
 /// A number of a surfel, and its area.
@@ -36,7 +36,7 @@ typedef struct weighed {
 typedef struct merge_job {
     const ewa_representatives *all;
     const ewa_representative *fine;
-    uint32_t count, cell_level, means, apart;
+    uint32_t count, cell_level, means, code_index;
     ewa_representatives made; // those of each part where its fine ones begin
     uint8_t *sheet_of;        // [fine], where there are numbers
     weighed *weighed;         // [fine], likewise
@@ -161,7 +161,7 @@ static void merge_numbers(const merge_job *job, uint32_t first, uint32_t count, 
         }
 }
 
-/// The sheet of a cell that a surfel belongs to: the nearest one by its normal, of those of its code where there is one and codes are kept apart;
+/// The sheet of a cell that a surfel belongs to: the nearest one by its normal, of those of its code where there is one and codes are not mixed;
 /// `*same`: no other one is wanted.
 static uint32_t find_sheet(const sheet *sheets, uint32_t count, const ewa_representative *s, double code, bool *same) {
     uint32_t best = 0;
@@ -193,7 +193,7 @@ static uint32_t merge_cell(const merge_job *job, uint32_t first, uint32_t count,
     uint32_t sheet_count = 0;
     const float limit = radius_limit(cell, count);
     for (uint32_t i = 0; i < count; i++) {
-        const double code = job->apart < number_count ? job->all->numbers[(first + i) * number_count + job->apart] : 0;
+        const double code = job->code_index < number_count ? job->all->numbers[(first + i) * number_count + job->code_index] : 0;
         bool same;
         uint32_t best = find_sheet(sheets, sheet_count, &cell[i], code, &same);
         if (!same && sheet_count < MAX_SHEETS) {
@@ -263,8 +263,8 @@ static void gather_parts(const merge_job *job, ewa_representatives *merged) {
 }
 
 ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representatives *fine, uint32_t cell_level,
-                                     uint32_t means, uint32_t apart, ewa_representatives *merged) {
-    merge_job job = {.all = fine, .fine = fine->items, .count = fine->count, .cell_level = cell_level, .means = means, .apart = apart};
+                                     uint32_t means, uint32_t code_index, ewa_representatives *merged) {
+    merge_job job = {.all = fine, .fine = fine->items, .count = fine->count, .cell_level = cell_level, .means = means, .code_index = code_index};
     const uint32_t weighed_count = fine->number_count ? fine->count : 0;
     ewa_status status = ewa_representatives_reserve(context, &job.made, fine->count, fine->number_count);
     if (weighed_count) {

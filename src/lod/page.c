@@ -73,7 +73,7 @@ static ewa_status add_attribute(ewa_region_plan *plan, const char *name, bool ch
     if (found->type == EWA_F32 || found->type == EWA_F64 || ewa_attribute_is_signal(found->name))
         plan->attribute_means |= 1u << plan->attribute_count;
     // What is filtered by its class is there at all levels.
-    if (strcmp(found->name, "classification") == 0) plan->attribute_apart = plan->attribute_count;
+    if (strcmp(found->name, "classification") == 0) plan->attribute_code = plan->attribute_count;
     plan->attribute_count++;
     return EWA_OK;
 }
@@ -96,7 +96,7 @@ static ewa_status choose_attributes(ewa_region_plan *plan, const char *list) {
 
 ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *statistics,
                                 const ewa_cloud *inputs, const char *attributes, ewa_region_plan *plan) {
-    *plan = (ewa_region_plan){.context = context, .statistics = statistics, .inputs = inputs, .attribute_apart = UINT32_MAX};
+    *plan = (ewa_region_plan){.context = context, .statistics = statistics, .inputs = inputs, .attribute_code = UINT32_MAX};
     const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
     plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
     plan->makes_radii = !has_axes && !has(inputs, EWA_RADIUS, 1);
@@ -240,7 +240,7 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
         status = join(plan, children, child_count, &all);
         if (status == EWA_OK)
             status = ewa_representatives_merge(plan->context, &all, (uint32_t)key->level + EWA_PAGE_BITS,
-                                               plan->attribute_means, plan->attribute_apart, representatives);
+                                               plan->attribute_means, plan->attribute_code, representatives);
         ewa_representatives_free(plan->context, &all);
         const double side = ewa_lattice_side_world(&plan->statistics->lattice, (uint32_t)key->level);
         if (status == EWA_OK)

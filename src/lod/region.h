@@ -23,7 +23,7 @@ typedef struct ewa_region_plan {
     ewa_evaluator *evaluator;
     ewa_level_attribute attributes[EWA_LEVELS_MAX_ATTRIBUTES]; ///< that representatives have
     uint32_t attribute_count, attribute_means;                 ///< whose numbers are means: a bit each
-    uint32_t attribute_apart;                                  ///< whose codes representatives do not mix; UINT32_MAX: none's
+    uint32_t attribute_code;                                  ///< whose codes representatives do not mix; UINT32_MAX: none's
     uint32_t leaf_count; ///< pages that are not divided, of the region so far
     double estimate_s, merge_s, encode_s;
 } ewa_region_plan;

@@ -42,10 +42,10 @@ ewa_status ewa_representatives_reserve(ewa_context *context, ewa_representatives
 
 /// Makes one surfel, or several where there are several sheets, for all of `fine` in each cell of `cell_level`: areas are
 /// added, after radii of more than three times the median in the cell are cut to that; everything else is a mean by
-/// area, but of numbers only those whose bit of `means` is set: others are that of most area. Surfels whose numbers `apart` differ are not
+/// area, but of numbers only those whose bit of `means` is set: others are that of most area. Surfels whose numbers `code_index` differ are not
 /// merged, unless there are too many of these in a cell; UINT32_MAX: all are. `merged` is zero-initialised or used before. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representatives *fine, uint32_t cell_level,
-                                     uint32_t means, uint32_t apart, ewa_representatives *merged);
+                                     uint32_t means, uint32_t code_index, ewa_representatives *merged);
 
 /// Working memory of ewa_representatives_evaluate(), kept from call to call.
 typedef struct ewa_evaluator {

@@ -10,7 +10,7 @@
 
 void ewa_reference_layer_settle(const ewa_reference_resolve *to, double x_px, double y_px, uint32_t index, double through,
                                 const ewa_reference_cover *first, ewa_reference_layer *layer) {
-    layer->merged = to->layering.merge_last && index + 1 == to->layering.most;
+    layer->merged = to->layering.merge_last && index + 1 == to->layering.max_layers;
     layer->through = through;
     layer->covered = 1;
     layer->cover = (ewa_reference_cover){.share = 0};
@@ -61,12 +61,12 @@ static bool is_behind(const ewa_reference_fragment *fragment, double passed) {
 uint32_t ewa_reference_layers_find(const ewa_reference_resolve *to, double x_px, double y_px,
                                    ewa_reference_fragment *fragments, uint32_t count, ewa_reference_layer *layers) {
     for (uint32_t i = 0; i < count; i++) fragments[i].layer = EWA_NO_LAYER;
-    const uint32_t most = to->layering.most;
+    const uint32_t max_layers = to->layering.max_layers;
     double passed = -INFINITY, through = 1;
     uint32_t index = 0;
-    for (; index < most && through > 0; index++) {
+    for (; index < max_layers && through > 0; index++) {
         double bound = INFINITY; // B(x)
-        const bool merged = to->layering.merge_last && index + 1 == most;
+        const bool merged = to->layering.merge_last && index + 1 == max_layers;
         for (uint32_t i = 0; i < count && !merged; i++)
             if (is_behind(&fragments[i], passed))
                 bound = fmin(bound, fragments[i].sample.z + fragments[i].splat->epsilon);

@@ -443,11 +443,11 @@ typedef struct shown {
 /// either is to the next one, and one standard deviation of one meets one of the other.
 static double share_in_front(const reference *work, const hit *hits, size_t count, size_t i) {
     if (work->camera.by_center || i + 1 >= count) return 0;
-    double meet = hits[i].deviation + hits[i + 1].deviation;
-    if (i > 0) meet = fmin(meet, hits[i].z - hits[i - 1].z);
-    if (i + 2 < count) meet = fmin(meet, hits[i + 2].z - hits[i + 1].z);
-    const double apart = hits[i + 1].z - hits[i].z;
-    return meet > 0 ? 0.5 * fmax(1 - apart / meet, 0) : 0;
+    double limit = hits[i].deviation + hits[i + 1].deviation;
+    if (i > 0) limit = fmin(limit, hits[i].z - hits[i - 1].z);
+    if (i + 2 < count) limit = fmin(limit, hits[i + 2].z - hits[i + 1].z);
+    const double gap = hits[i + 1].z - hits[i].z;
+    return limit > 0 ? 0.5 * fmax(1 - gap / limit, 0) : 0;
 }
 
 /// Composites a pixel's list over a straight linear colour; `ahead`: what lies in front of the surface.

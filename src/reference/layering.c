@@ -28,8 +28,8 @@ ewa_reference_layering ewa_reference_layering_of(const ewa_render_options *optio
     const bool transparent =
         options->layers != 1 && options->passes == 3 && (options->opacity < 1 || any_transparent(reader, count));
     if (!transparent) return (ewa_reference_layering){options->edge_layers, false, options->edge_layers > 1};
-    const uint32_t most = options->layers == 0 ? EWA_LAYERS_EXACT : options->layers;
-    return (ewa_reference_layering){most, true, most != EWA_LAYERS_EXACT};
+    const uint32_t max_layers = options->layers == 0 ? EWA_LAYERS_EXACT : options->layers;
+    return (ewa_reference_layering){max_layers, true, max_layers != EWA_LAYERS_EXACT};
 }
 
 /// What one surface more, from the `i`-th on, takes of the light, as a share.

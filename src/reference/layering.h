@@ -8,7 +8,7 @@
 #include "surface/surfel.h"
 
 typedef struct ewa_reference_layering {
-    uint32_t most;    ///< surfaces
+    uint32_t max_layers; ///< surfaces
     bool transparent; ///< these let light through wherever they are
     bool merge_last;  ///< the last of so many is all that is left
 } ewa_reference_layering;

@@ -219,8 +219,8 @@ static void bound_near(const ewa_reference_view *view, ewa_reference_splat *spla
     ewa_vec3 corners[4];
     for (int i = 0; i < 4; i++) {
         const ewa_vec3 along = vec3_scale(splat->axis_u, i == 1 || i == 2 ? reach : -reach);
-        const ewa_vec3 aside = vec3_scale(splat->axis_v, i >= 2 ? reach : -reach);
-        corners[i] = vec3_add(splat->center, vec3_add(along, aside));
+        const ewa_vec3 across = vec3_scale(splat->axis_v, i >= 2 ? reach : -reach);
+        corners[i] = vec3_add(splat->center, vec3_add(along, across));
     }
     double x_low = INFINITY, x_high = -INFINITY, y_low = INFINITY, y_high = -INFINITY;
     for (int i = 0; i < 4; i++) {

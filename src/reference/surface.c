@@ -170,7 +170,7 @@ static void write_surface(const ewa_frame *frame, size_t index, double depth, ew
 
 /// Whether a layer is all that is left (semantics.h, layers).
 static bool is_merged(const reference *work, uint32_t layer) {
-    return work->layering.merge_last && layer + 1 == work->layering.most;
+    return work->layering.merge_last && layer + 1 == work->layering.max_layers;
 }
 
 /// Third pass (SS 7): divide by the weights, shade, cover; then make the pixel ready for the surface behind.
@@ -271,7 +271,7 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     for (size_t i = first_pixel; i < end_pixel; i++)
         work->pixels[i] = (pixel){.bound = INFINITY, .nearest = NOBODY, .passed = -INFINITY, .through = 1};
     bool open = true;
-    for (uint32_t layer = 0; layer < work->layering.most && open; layer++) {
+    for (uint32_t layer = 0; layer < work->layering.max_layers && open; layer++) {
         // The last of so many layers is all that is left: there is no bound then.
         const bool merged = is_merged(work, layer);
         if (!merged) walk(work, begin, end, lower_bound);

@@ -29,10 +29,10 @@ static ewa_status measure(ewa_asset_stream *stream, const ewa_gaussians *set) {
             const double mass = (double)set->opacities[at] * (a * b + a * c + b * c);
             squares += mass * (a * a + b * b + c * c), masses += mass;
         }
-        const double apart2 = masses > 0 ? squares / masses : 0, range = 1 / coarsest - 1 / finest;
+        const double spacing2 = masses > 0 ? squares / masses : 0, range = 1 / coarsest - 1 / finest;
         for (uint32_t k = 1; k < leaf->count && range > 0; k++) {
             const double share = (1 / (double)ranges[leaf->first + k].count - 1 / finest) / range;
-            stream->spacing_world[leaf->first + k] = sqrt(apart2 * fmin(fmax(share, 0), 1));
+            stream->spacing_world[leaf->first + k] = sqrt(spacing2 * fmin(fmax(share, 0), 1));
         }
         stream->count += ranges[leaf->first].count;
     }

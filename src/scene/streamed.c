@@ -16,7 +16,7 @@
 /// Boxes hold three standard deviations, and Gaussians are drawn somewhat beyond the picture's borders.
 static const double BOX_DEVIATIONS = 3, MARGIN_SHARE = 0.15;
 
-/// The least pixels that grow, the most that they grow to, and the steps by which they are found.
+/// The fewest pixels that grow, the most that they grow to, and the steps by which they are found.
 static const double MINIMUM_PX = 1e-3, MAXIMUM_PX = 1e6;
 enum { GROWTH_STEPS = 32 };
 

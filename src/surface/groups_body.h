@@ -91,7 +91,7 @@ static inline void find_widest(const float *rows, bool by_normal, node *of) {
         const wm there = wm_of_bits((1u << ROW * left) - 1);
         lows = wf_min(wf_select(there, four, lows), lows), highs = wf_max(wf_select(there, four, highs), highs);
     }
-    float low[LANES], high[LANES], least[3];
+    float low[LANES], high[LANES], minimum[3];
     wf_store(low, lows), wf_store(high, highs);
     uint32_t widest = 0; // its upper bits and the axis, which needs no guesses
     for (uint32_t c = 0; c < 3; c++) {
@@ -104,14 +104,14 @@ static inline void find_widest(const float *rows, bool by_normal, node *of) {
         uint32_t bits;
         memcpy(&bits, &extent, sizeof bits);
         bits = (bits & ~UINT32_C(3)) | c;
-        least[c] = l;
+        minimum[c] = l;
         widest = bits > widest ? bits : widest;
     }
     const uint32_t axis = widest & 3, bits = widest & ~UINT32_C(3);
     float extent;
     memcpy(&extent, &bits, sizeof extent);
     if (!(extent > of->extent)) return;
-    of->by_normal = by_normal, of->axis = (uint8_t)axis, of->low = least[axis], of->extent = extent;
+    of->by_normal = by_normal, of->axis = (uint8_t)axis, of->low = minimum[axis], of->extent = extent;
 }
 
 /// The sort keys of nodes: their number, the place along their axis, the lane. Returns how many there are.
@@ -258,7 +258,7 @@ static uint32_t divide_window(const ewa_window *window, float cutoff, uint8_t or
     const wf per_radius = wf_set((float)count / (cutoff * sum)), zero = wf_set(0), normal_radii = wf_set(NORMAL_RADII);
     float places[ROW * WINDOW], normals[ROW * WINDOW];
     wf low[3], high[3];
-    float least[LANES], most[LANES], extent = 0;
+    float minimum[LANES], maximum[LANES], extent = 0;
     for (int c = 0; c < 3; c++) low[c] = wf_set(NORMAL_RADII), high[c] = wf_set(-NORMAL_RADII);
     for (uint32_t i = 0; i < window->packet_count * LANES; i += LANES) {
         wf place[3], normal[3];
@@ -272,12 +272,12 @@ static uint32_t divide_window(const ewa_window *window, float cutoff, uint8_t or
         w_store4(normals + ROW * (size_t)i, normal[0], normal[1], normal[2], zero);
     }
     for (int c = 0; c < 3; c++) {
-        wf_store(least, low[c]), wf_store(most, high[c]);
+        wf_store(minimum, low[c]), wf_store(maximum, high[c]);
         for (int i = 1; i < LANES; i++) {
-            least[0] = least[i] < least[0] ? least[i] : least[0];
-            most[0] = most[i] > most[0] ? most[i] : most[0];
+            minimum[0] = minimum[i] < minimum[0] ? minimum[i] : minimum[0];
+            maximum[0] = maximum[i] > maximum[0] ? maximum[i] : maximum[0];
         }
-        extent = most[0] - least[0] > extent ? most[0] - least[0] : extent;
+        extent = maximum[0] - minimum[0] > extent ? maximum[0] - minimum[0] : extent;
     }
     d.with_normals = extent > GAP;
     divide(&d, places, normals, count);

@@ -133,7 +133,7 @@ static ALWAYS_INLINE void stage_turn(const ewa_view *view, const ewa_packet_sour
     t->ratio = decode_ratios(&source->packets[id]);
 }
 
-/// Third step: near and broad surfels aside, the range of depths.
+/// Third step: the range of depths, but of near and broad surfels.
 static ALWAYS_INLINE void stage_range(const ewa_view *view, uint32_t id, bool ellipses, stage *t,
                                       ewa_run *run) {
     const wf one = wf_set(1), zero = wf_set(0);

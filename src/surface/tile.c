@@ -184,8 +184,8 @@ static const uint32_t *front_to_back(const ewa_tile_job *job, const ewa_tile_sou
     return s->ordered;
 }
 
-/// First pass over one source, some packets at a time: those that lie behind what is drawn by then are put
-/// aside. Where nothing is hidden, fewer and fewer packets are asked.
+/// First pass over one source, some packets at a time: those that lie behind what is drawn by then are kept
+/// for later. Where nothing is hidden, fewer and fewer packets are asked.
 static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
                          ewa_tile_scratch *s, ewa_tile_split *split, const uint32_t *ids, uint64_t count,
                          bool kept) {

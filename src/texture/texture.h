@@ -169,7 +169,7 @@ typedef struct ewa_texture_brush {
     ewa_texture_sums sums;
     ewa_texture_block *block;
     ewa_texture_counts counts;
-    double spared_texels; ///< in a survey: texels that levels draw less
+    double spared_texels; ///< where levels are only counted: texels that levels draw less
     uint8_t *wanted;      ///< when not NULL, nothing is drawn: levels that would be are marked, [u][v]
 } ewa_texture_brush;
 

@@ -62,7 +62,7 @@ static void mark(ewa_gaussian_tile *tile) {
     }
 }
 
-/// How splats are met; constants of each of the loops over them.
+/// How rays hit splats; constants of each of the loops over them.
 typedef struct hit_mode {
     bool trained, orthographic;
     bool with_depth; ///< of hits; else theirs is 0
@@ -83,13 +83,13 @@ static ALWAYS_INLINE closest_point closest_to_splat(const float *s, wf u, wf v, 
     for (int k = 0; k < 3; k++)
         g[k] = wf_fma(u, wf_set(s[RECORD_G + 3 * k]),
                       wf_fma(v, wf_set(s[RECORD_G + 3 * k + 1]), wf_set(s[RECORD_G + 3 * k + 2])));
-    const wf length = wf_set(s[RECORD_LENGTH]), one = wf_set(1), aside = wf_fma(g[0], g[0], wf_mul(g[1], g[1]));
-    closest_point by = {.distance2 = aside, .z = g[2]};
+    const wf length = wf_set(s[RECORD_LENGTH]), one = wf_set(1), lateral2 = wf_fma(g[0], g[0], wf_mul(g[1], g[1]));
+    closest_point by = {.distance2 = lateral2, .z = g[2]};
     if (orthographic) {
-        by.ahead = wf_lt(aside, limit);
+        by.ahead = wf_lt(lateral2, limit);
         by.variance = wf_div(one, wf_mul(length, length));
     } else {
-        const wf square = wf_fma(g[2], g[2], aside), far2 = wf_mul(wf_mul(length, length), aside);
+        const wf square = wf_fma(g[2], g[2], lateral2), far2 = wf_mul(wf_mul(length, length), lateral2);
         by.ahead = wm_and(wf_lt(far2, wf_mul(limit, square)), wf_lt(wf_set(0), g[2]));
         if (!all && !wm_bits(by.ahead)) return by;
         by.variance = wf_div(one, square);

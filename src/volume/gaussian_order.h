@@ -231,10 +231,10 @@ static ALWAYS_INLINE void push_row(const ewa_gaussian_view *view, wm shows, cons
                                    wf half, row_state *at) {
     const wf zero = wf_set(0), one = wf_set(1), *a = at->pending[0], *b = at->pending[1];
     // The share of the second that is in front of the first.
-    const wf apart = wf_sub(b[PENDING_Z], a[PENDING_Z]), after = wf_sub(next[PENDING_Z], b[PENDING_Z]);
-    const wf meet = wf_min(wf_min(at->gap, after), wf_add(a[PENDING_DEVIATION], b[PENDING_DEVIATION]));
-    const wf nearness = wf_max(wf_sub(one, wf_div(apart, wf_max(meet, wf_set(1e-30f)))), zero);
-    const wf share = wf_keep(wf_lt(zero, meet), wf_mul(wf_set(0.5f), nearness)); // of three at one depth none is
+    const wf distance = wf_sub(b[PENDING_Z], a[PENDING_Z]), after = wf_sub(next[PENDING_Z], b[PENDING_Z]);
+    const wf limit = wf_min(wf_min(at->gap, after), wf_add(a[PENDING_DEVIATION], b[PENDING_DEVIATION]));
+    const wf nearness = wf_max(wf_sub(one, wf_div(distance, wf_max(limit, wf_set(1e-30f)))), zero);
+    const wf share = wf_keep(wf_lt(zero, limit), wf_mul(wf_set(0.5f), nearness)); // of three at one depth none is
     const wf hidden = wf_mul(share, b[PENDING_ALPHA]), taken = wf_keep(shows, wf_mul(at->through, a[PENDING_ALPHA]));
     const wf full = wf_keep(shows, wf_mul(at->lead, a[PENDING_ALPHA])), weight = wf_fnma(full, hidden, full);
     const wf rest = wf_sub(at->through, taken);
@@ -251,7 +251,7 @@ static ALWAYS_INLINE void push_row(const ewa_gaussian_view *view, wm shows, cons
                                    : note_depth(at->depth, half, at->through, rest, a[PENDING_Z]);
     at->lead = wf_select(shows, wf_fma(taken, share, rest), at->lead);
     at->through = rest;
-    at->gap = wf_select(shows, apart, at->gap);
+    at->gap = wf_select(shows, distance, at->gap);
     at->alive = wm_and(at->alive, wf_le(wf_set(view->minimum_transmittance), at->lead));
     for (int i = 0; i < PENDING_NUMBERS - !mixed; i++) {
         at->pending[0][i] = wf_select(shows, b[i], a[i]);

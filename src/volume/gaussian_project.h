@@ -73,7 +73,7 @@ static ALWAYS_INLINE wm place_splats(const ewa_gaussian_view *view, const ewa_sp
         const wf t = wf_mul(s->scales[i], s->axes[i][2]);
         depth2 = wf_fma(t, t, depth2);
     }
-    // Where its alpha falls to the least one that is drawn.
+    // Where its alpha falls to the lowest one that is drawn.
     const wf seen = wf_sub(wf_log2(wf_max(opacity, wf_set(1e-30f))), wf_set(view->log2_min));
     s->cutoff2 = wf_min(wf_mul(seen, wf_set(1.38629436f)), wf_set(view->cutoff2)); // 2 ln 2
     const wm shows = wf_lt(wf_set(0), s->cutoff2);
@@ -292,12 +292,12 @@ static ALWAYS_INLINE void harmonics_of(const wf d[3], uint32_t degree, wf y[24])
     y[2] = wf_mul(wf_set(-0.48860251f), x);
     if (degree < 2) return;
     const wf xx = wf_mul(x, x), yy = wf_mul(v, v), zz = wf_mul(z, z), xy = wf_mul(x, v), three = wf_set(3);
-    const wf apart = wf_sub(xx, yy), yz = wf_mul(v, z), xz = wf_mul(x, z);
+    const wf difference = wf_sub(xx, yy), yz = wf_mul(v, z), xz = wf_mul(x, z);
     y[3] = wf_mul(wf_set(1.09254843f), xy);
     y[4] = wf_mul(wf_set(-1.09254843f), yz);
     y[5] = wf_mul(wf_set(0.315391565f), wf_sub(wf_sub(wf_add(zz, zz), xx), yy));
     y[6] = wf_mul(wf_set(-1.09254843f), xz);
-    y[7] = wf_mul(wf_set(0.546274215f), apart);
+    y[7] = wf_mul(wf_set(0.546274215f), difference);
     if (degree < 3) return;
     const wf sky = wf_sub(wf_sub(wf_mul(wf_set(4), zz), xx), yy);
     const wf lobe_y = wf_fma(three, xx, wf_sub(wf_set(0), yy)), lobe_x = wf_fnma(three, yy, xx);
@@ -306,17 +306,17 @@ static ALWAYS_INLINE void harmonics_of(const wf d[3], uint32_t degree, wf y[24])
     y[10] = wf_mul(wf_mul(wf_set(-0.457045799f), v), sky);
     y[11] = wf_mul(wf_mul(wf_set(0.373176333f), z), wf_fnma(three, wf_add(xx, yy), wf_add(zz, zz)));
     y[12] = wf_mul(wf_mul(wf_set(-0.457045799f), x), sky);
-    y[13] = wf_mul(wf_mul(wf_set(1.44530572f), z), apart);
+    y[13] = wf_mul(wf_mul(wf_set(1.44530572f), z), difference);
     y[14] = wf_mul(wf_mul(wf_set(-0.590043590f), x), lobe_x);
     if (degree < 4) return;
     const wf seven1 = wf_fma(wf_set(7), zz, wf_set(-1)), seven3 = wf_fma(wf_set(7), zz, wf_set(-3));
-    y[15] = wf_mul(wf_mul(wf_set(2.50334294f), xy), apart);
+    y[15] = wf_mul(wf_mul(wf_set(2.50334294f), xy), difference);
     y[16] = wf_mul(wf_mul(wf_set(-1.77013077f), yz), lobe_y);
     y[17] = wf_mul(wf_mul(wf_set(0.946174696f), xy), seven1);
     y[18] = wf_mul(wf_mul(wf_set(-0.669046544f), yz), seven3);
     y[19] = wf_mul(wf_set(0.105785547f), wf_fma(zz, wf_fma(wf_set(35), zz, wf_set(-30)), three));
     y[20] = wf_mul(wf_mul(wf_set(-0.669046544f), xz), seven3);
-    y[21] = wf_mul(wf_mul(wf_set(0.473087348f), apart), seven1);
+    y[21] = wf_mul(wf_mul(wf_set(0.473087348f), difference), seven1);
     y[22] = wf_mul(wf_mul(wf_set(-1.77013077f), xz), lobe_x);
     y[23] = wf_mul(wf_set(0.625835735f), wf_fnma(yy, lobe_y, wf_mul(xx, lobe_x)));
 }

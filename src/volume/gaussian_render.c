@@ -179,7 +179,7 @@ static uint32_t choose_level(const ewa_gaussian_view *view, const ewa_splat_part
     for (int k = 0; k < 3; k++) nearest += (double)view->turn[2][k] * (double)(part->center[k] * view->set_unit);
     const double px_per_unit = fmax((double)view->fx_px, (double)view->fy_px) / (view->orthographic ? 1 : fmax(nearest, 1e-30));
     uint32_t level = 0;
-    while (level < EWA_SPLAT_LEVELS && (double)(part->apart[level] * view->set_unit) * px_per_unit <= merge_px) level++;
+    while (level < EWA_SPLAT_LEVELS && (double)(part->spacing[level] * view->set_unit) * px_per_unit <= merge_px) level++;
     return level;
 }
 

@@ -27,13 +27,13 @@ static float place_of(uint32_t first_px, uint32_t index) { return (float)first_p
 static bool meet(const ewa_gaussian_solids *solids, const float *s, float u, float v, float enter, float leave, solid_hit *hit) {
     const float r2 = solids->radius * solids->radius, length = s[RECORD_LENGTH];
     for (int k = 0; k < 3; k++) hit->g[k] = u * s[RECORD_G + 3 * k] + (v * s[RECORD_G + 3 * k + 1] + s[RECORD_G + 3 * k + 2]);
-    const float aside = hit->g[0] * hit->g[0] + hit->g[1] * hit->g[1];
+    const float lateral2 = hit->g[0] * hit->g[0] + hit->g[1] * hit->g[1];
     float middle = hit->g[2], half;
     if (solids->view->orthographic) {
-        if (!(aside < r2)) return false;
-        half = sqrtf(r2 - aside) / length;
+        if (!(lateral2 < r2)) return false;
+        half = sqrtf(r2 - lateral2) / length;
     } else {
-        const float square = aside + hit->g[2] * hit->g[2], inside = r2 * square - length * length * aside;
+        const float square = lateral2 + hit->g[2] * hit->g[2], inside = r2 * square - length * length * lateral2;
         if (!(inside > 0)) return false;
         half = sqrtf(inside) / square;
         middle = length * hit->g[2] / square;
@@ -76,9 +76,9 @@ static void draw_row(const ewa_gaussian_solids *solids, const ewa_gaussian_tile 
         float enter, leave;
         solid_hit hit = {.z = s[RECORD_DOT_Z]};
         find_range(solids, tile, x, y, &enter, &leave);
-        const bool met = solids->dots ? u * u + v * v <= solids->radius * solids->radius && hit.z > enter && hit.z < leave
+        const bool is_hit = solids->dots ? u * u + v * v <= solids->radius * solids->radius && hit.z > enter && hit.z < leave
                                       : meet(solids, s, u, v, enter, leave, &hit);
-        if (!met || !(hit.z < samples->z[at])) continue;
+        if (!is_hit || !(hit.z < samples->z[at])) continue;
         samples->z[at] = hit.z;
         samples->ids[at] = id;
     }

@@ -39,9 +39,9 @@ void ewa_ray_sections_range(const ewa_ray_sections *sections, double x_px, doubl
     for (uint32_t i = 0; i < sections->count; i++) {
         // How far within the plane the ray is, at + by * z.
         const double *p = sections->planes[i];
-        const double aside = p[0] * x + p[1] * y;
-        const double at = sections->orthographic ? aside + p[3] : p[3];
-        const double by = sections->orthographic ? p[2] : aside + p[2];
+        const double lateral = p[0] * x + p[1] * y;
+        const double at = sections->orthographic ? lateral + p[3] : p[3];
+        const double by = sections->orthographic ? p[2] : lateral + p[2];
         const double z = -at / by;
         if (by > 0)
             *enter = fmax(*enter, z);

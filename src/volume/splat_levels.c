@@ -32,10 +32,10 @@ static double make_level(const level_job *job, level_scratch *scratch, uint32_t 
     double squares = 0, masses = 0;
     ewa_gaussian_tree_cut(&scratch->tree, merged_count);
     for (uint32_t m = 0; m < merged_count; m++) {
-        const double apart2 = ewa_gaussian_tree_merge(&scratch->tree, job->set, m, &scratch->merged, m);
+        const double spacing2 = ewa_gaussian_tree_merge(&scratch->tree, job->set, m, &scratch->merged, m);
         const float *scales = scratch->merged.scales + 3 * (size_t)m;
         const double mass = (double)scratch->merged.opacities[m] * (double)(scales[0] * scales[1] + scales[0] * scales[2] + scales[1] * scales[2]);
-        squares += mass * apart2, masses += mass;
+        squares += mass * spacing2, masses += mass;
     }
     uint32_t packets;
     const size_t packet = ewa_splats_level(job->splats, part, level, &packets);
@@ -67,7 +67,7 @@ static void make_part(void *data, uint32_t part, uint32_t worker) {
     made->radius = (float)(sqrt(squares) / 2 / unit * (1 + 1e-6));
     ewa_gaussian_tree_make(&scratch->tree, set, job->order + begin, count);
     for (uint32_t level = 1; level <= EWA_SPLAT_LEVELS; level++)
-        made->apart[level - 1] = (float)(make_level(job, scratch, part, level, count) / unit);
+        made->spacing[level - 1] = (float)(make_level(job, scratch, part, level, count) / unit);
 }
 
 ewa_status ewa_splats_make_levels(ewa_splats *splats, const ewa_gaussians *set, const uint32_t *order) {

@@ -38,7 +38,7 @@ enum {
 /// A part that has levels.
 typedef struct ewa_splat_part {
     float center[3], radius;         ///< a ball around the centres of its splats, units
-    float apart[EWA_SPLAT_LEVELS];   ///< RMS distance of its splats from what stands for them, units, level 1 on
+    float spacing[EWA_SPLAT_LEVELS]; ///< RMS distance of its splats from what stands for them, units, level 1 on
 } ewa_splat_part;
 
 typedef float ewa_splat_packet[EWA_SPLAT_NUMBERS][EWA_SPLAT_LANES];

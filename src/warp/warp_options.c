@@ -14,7 +14,7 @@
 #define MIN_DEPTH 1e-9
 #define MAX_DEPTH 1e12
 
-/// Limit of focal lengths, principal points and scales, and the inverse of the least one.
+/// Limit of focal lengths, principal points and scales, and the inverse of the smallest one.
 static const double MAX_CAMERA = 1e6;
 
 void ewa_depth_image_init(ewa_depth_image *image) {

@@ -218,7 +218,7 @@ TEST_ON(test_sight, 1) {
             assert_int_equal(ewa_volume_sight_measure(&volume, 100, 200, &sight), EWA_OK);
             phantom_expect(column, sight.hit, cases[n].hit, cases[n].hit);
             phantom_expect(column, sight.hidden, cases[n].hidden, cases[n].hidden);
-            phantom_expect(column, sight.apart, cases[n].apart, cases[n].apart);
+            phantom_expect(column, sight.separated, cases[n].apart, cases[n].apart);
         }
     }
 }

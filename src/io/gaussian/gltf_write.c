@@ -63,7 +63,7 @@ static void name_array(uint32_t array, char name[64]) {
         snprintf(name, 64, "KHR_gaussian_splatting:SH_DEGREE_%u_COEF_%u", degree, array - HARMONICS - degree * degree);
 }
 
-/// The least and the largest coordinates, which glTF wants of positions.
+/// The smallest and the largest coordinates, which glTF wants of positions.
 static void say_bounds(writing *w) {
     for (int side = 0; side < 2; side++) {
         say(w, side ? "],\"max\":[" : ",\"min\":[");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Cells of VTK as polygons. Of cells with a volume the outer surface is drawn: faces whose corners no other face has.
-// Faces are told apart by their four least corners, which the faces of a grid that is none of all sorts share with no
+// Faces are told apart by their four lowest corners, which the faces of a grid that is none of all sorts share with no
 // other; they are sorted by them, so that no file, however made, takes longer than that.
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, figures 2 and 3; the order of corners, faces and
@@ -137,7 +137,7 @@ typedef struct cell_face {
     uint32_t count, own_places[MAX_CORNERS], own_middles[MAX_CORNERS];
 } cell_face;
 
-/// A face of a solid by its least corners, ascending and each once, EWA_MESH_NONE behind the last.
+/// A face of a solid by its lowest corners, ascending and each once, EWA_MESH_NONE behind the last.
 typedef struct face_key {
     uint32_t places[KEY_PLACES], number;
 } face_key;
