@@ -34,7 +34,7 @@ if not os.environ.get("DISPLAY"):
     sys.exit(0)
 
 PERCENTS = (1, 3, 10, 30, 60, 100)
-EXTINCTIONS = (0.02, 1)
+EXTINCTIONS = (0.02, 0.2, 0.4, 1)
 SIDE_PX, THREADS, FRAMES = 400, 2, 3
 
 
