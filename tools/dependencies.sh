@@ -152,7 +152,8 @@ CONFIG
     cd "$sources"/cmocka-*/
     cp include/cmocka*.h "$prefix/include"
     case $target in *-windows-*) has="-DHAVE_IO_H -DHAVE_MALLOC_H" ;; *) has=-DHAVE_UNISTD_H ;; esac
-    library cmocka cmocka 1.1.5 "" "-Iinclude -DHAVE_SIGNAL_H -DHAVE_STRUCT_TIMESPEC -DHAVE_INTTYPES_H -DHAVE_STDINT_H $has -DHAVE_STRINGS_H -DHAVE_TIME_H" src/cmocka.c
+    case $target in *-musl) seen=-D_UINTPTR_T ;; esac # its header declares the type where this is not seen, which musl has declared
+    library cmocka cmocka 1.1.5 "" "$seen -Iinclude -DHAVE_SIGNAL_H -DHAVE_STRUCT_TIMESPEC -DHAVE_INTTYPES_H -DHAVE_STDINT_H $has -DHAVE_STRINGS_H -DHAVE_TIME_H" src/cmocka.c
 fi
 rm -rf "$prefix/objects"
 echo "$wanted" >"$prefix/.complete"
