@@ -19,6 +19,8 @@
 #include <unistd.h>
 
 enum { ERROR_BYTES = 512, STEP_BYTES = 1 << 16, POLL_MS = 100 };
+/// With this a child of posix_spawn() ends whose program cannot be started, where its parent was not told so.
+enum { NOT_STARTED = 127 };
 
 static const import_limits usual_limits = {
     .wall_s = 120, .cpu_s = 60, .memory_bytes = (uint64_t)4 << 30, .output_bytes = (uint64_t)4 << 30};
@@ -111,7 +113,7 @@ static const char *collect(import_child *child, const import_limits *limits) {
 }
 
 /// Says how the helper ended; true when that is well.
-static bool conclude(cli_session *session, const char *path, const import_child *child, int state) {
+static bool conclude(cli_session *session, const char *helper, const char *path, const import_child *child, int state) {
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return true;
     if (WIFSIGNALED(state) && WTERMSIG(state) == SIGXCPU)
         session_fail(session, "%s: the import helper takes too long", path);
@@ -120,6 +122,8 @@ static bool conclude(cli_session *session, const char *path, const import_child 
                      WTERMSIG(state));
     else if (child->error_bytes)
         session_fail(session, "%s: %s", path, child->error);
+    else if (WEXITSTATUS(state) == NOT_STARTED)
+        session_fail(session, "%s: the import helper %s cannot be started (status %d)", path, helper, NOT_STARTED);
     else
         session_fail(session, "%s: the import helper failed (status %d)", path, WEXITSTATUS(state));
     return false;
@@ -158,7 +162,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
     if (given_up)
         session_fail(session, "%s: the import helper was ended: %s", path, given_up);
     else
-        done = conclude(session, path, &child, state);
+        done = conclude(session, helper, path, &child, state);
     if (done && child.error_bytes) session_warn(session, "%s: %s", path, child.error);
     if (!done) {
         free(child.bytes);
