@@ -105,6 +105,36 @@ same here.png there.png
 $there info --json torus.ply >there.json
 same here.json there.json
 
+# What each command writes and says, but for those that the jobs of hash_jobs.sh try.
+"$here" generate terrain -n 3000 -o terrain.laz
+"$here" generate cube -n 2000 --sharp -o cube.ply
+"$here" generate sphere -n 2000 -o sphere.ply
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >solid.obj
+"$here" render sphere.ply --size 64x48 -o color.png --aov depth=depth.pfm --save-camera camera.json
+while read -r file arguments; do
+    # shellcheck disable=SC2086
+    "$here" $arguments -o "here-$file" >here.txt 2>&1
+    # shellcheck disable=SC2086
+    $there $arguments -o "there-$file" >there.txt 2>&1 </dev/null
+    tr -d '\r' <there.txt | sed 's/there-/here-/g' >said
+    same "here-$file" "there-$file"
+    same here.txt said
+done <<'COMMANDS'
+terrain.png  render terrain.laz --size 64x48
+terrain.laz  convert terrain.laz --filter z>0
+terrain.csv  convert terrain.laz
+torus.pcd    convert torus.ply
+sharp.ply    features cube.ply
+sampled.ply  sample solid.obj
+cut.ply      csg cube.ply sphere.ply --op difference
+profile.csv  profile terrain.laz --line 0,0;1,1
+warped.png   warp color.png depth.pfm --source-camera camera.json --camera camera.json
+page.html    page torus.ply
+COMMANDS
+"$here" info terrain.laz cube.ply solid.obj >here.txt
+$there info terrain.laz cube.ply solid.obj | tr -d '\r' >there.txt
+same here.txt there.txt
+
 # Files of more than 4 GiB, with holes: a table of nodes, records that begin before what 32 bits count and end behind it, the last
 # element of a PLY file, samples of a volume.
 "$here" generate terrain -n 20000 -o terrain.laz
