@@ -352,7 +352,7 @@ class PyVista(Both):
                 scene = ewa.Scene()
                 scene.add(thing, color_by=name)
                 pixels.append(scene.render(CAMERA).rgba8)
-            np.testing.assert_array_equal(*pixels)
+            np.testing.assert_array_equal(pixels[0], pixels[1])
         both = ewa.as_drawables(pv.MultiBlock([numbers, box]))[0].attributes
         self.assertEqual(np.isnan(both["heat"]).sum(), 8)
 

@@ -203,7 +203,7 @@ class Meshes(Case):
         self.assertEqual(ewa.Mesh(corners, faces).attributes, {})
         for wrong_numbers in ({"heat": [1, 2]}, {"radius": [1, 1, 1, 1.0]}, {"heat": np.zeros((4, 5))}):
             with self.assertRaises(ewa.ArgumentError):
-                ewa.Mesh(corners, faces, **wrong_numbers)  # type: ignore[arg-type]
+                ewa.Mesh(corners, faces, **wrong_numbers)
         with self.assertRaises(ewa.NumericError):
             ewa.Mesh(np.zeros((3, 3)), [[0, 1, 2]]).sample()
         with self.assertRaises(ewa.FormatError):
