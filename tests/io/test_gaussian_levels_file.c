@@ -174,6 +174,7 @@ TEST(of_files) {
         char path[512], file[512];
         uint64_t count = 0;
         make_set(context, many, n == 1 ? 1 : 0, &set);
+        memset(set.origin, 0, sizeof set.origin); // with one, centres are doubles, and the file is read as a whole
         for (uint32_t i = 0; i < many && n == 0; i++) // nearly all within a part in 10,000 of the box, a few far away
             for (size_t k = 0; k < 3; k++) set.centers[3 * (size_t)i + k] *= i % 1000 ? 1e-4f : 1;
         if (n == 1) assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
@@ -192,6 +193,31 @@ TEST(of_files) {
         remove_folder(names[1]);
         assert_int_equal(unlink(file), 0);
     }
+}
+
+/// Files that are cut, or have a number that is none, are refused as when they are read, and leave nothing.
+TEST_LOGGED(broken_files, 1) {
+    ewa_gaussians set, read;
+    char path[512], file[512];
+    size_t size = 0;
+    make_set(context, 100, 0, &set);
+    memset(set.origin, 0, sizeof set.origin);
+    assert_int_equal(ewa_gaussians_save(&set, scratch_path("broken.ply", file), NULL), EWA_OK);
+    ewa_gaussians_free(&set);
+    uint8_t *bytes = scratch_read(file, &size);
+    const char *meta = make_folder("broken", path);
+    for (size_t length = 0; length <= size; length += length < size && size - length > 13 ? 13 : 1) {
+        uint64_t count = 7;
+        if (length == size) memset(bytes + size - 4, 0xff, 4); // of a quaternion
+        scratch_write(file, bytes, length);
+        const ewa_status status = ewa_gaussians_load(context, file, &read, NULL);
+        assert_true(status != EWA_OK);
+        assert_int_equal(ewa_gaussians_convert(context, file, meta, NULL, &count), status);
+        assert_true(access(meta, F_OK) != 0 && access(level_path("broken", 0, (char[512]){0}), F_OK) != 0);
+    }
+    free(bytes);
+    unlink(file);
+    remove_folder("broken");
 }
 
 TEST_LOGGED(refused, 1) {
