@@ -273,10 +273,10 @@ TEST(test_ranks) {
                 i % 5 == 0 ? floor(check_uniform(&random, -3, 3)) : check_uniform(&random, -1, 1) * size;
             if (i % 31 == 7) numbers[i] = i % 2 ? INFINITY : -INFINITY;
         }
-        memcpy(sorted, numbers, sizeof sorted);
+        memcpy(sorted, numbers, count * sizeof *sorted);
         qsort(sorted, count, sizeof *sorted, compare_numbers);
         for (size_t rank = 0; rank < count; rank++) {
-            memcpy(shuffled, numbers, sizeof shuffled);
+            memcpy(shuffled, numbers, count * sizeof *shuffled);
             assert_true(ewa_rank_select(shuffled, count, rank) == sorted[rank]);
         }
     }
