@@ -61,7 +61,7 @@ EIGHT void fill_lanes(const ewa_reference_view *view, const ewa_adjoint_filling 
         const double front = at->sides[0][EWA_PLANE_WEIGHT][lane], back = at->sides[1][EWA_PLANE_WEIGHT][lane], q = front + back;
         const bool is_there = (at->bound[lane] < __builtin_inf()) & (q > 0), is_back = !(front > 0);
         const bool filled = is_there & (q >= least) & ((front > 0) != (back > 0)) & !(at->whole[lane] > 0);
-        at->done[lane] = !is_there | filled ? -1 : 0, at->filled[lane] = filled ? -1 : 0, at->is_back[lane] = is_back ? -1 : 0;
+        at->done[lane] = (!is_there | filled) ? -1 : 0, at->filled[lane] = filled ? -1 : 0, at->is_back[lane] = is_back ? -1 : 0;
         at->bound[lane] = is_there ? at->bound[lane] : -__builtin_inf(); // nothing counts
         const double weight = filled ? q : 1, inverse = 1 / weight;
         const ewa_vec3 sum = {on_side(at, EWA_PLANE_NORMAL, lane, is_back), on_side(at, EWA_PLANE_NORMAL + 1, lane, is_back),
