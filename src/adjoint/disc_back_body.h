@@ -27,7 +27,7 @@ LANE double power_of(double size) {
     bits &= UINT64_C(0x7ff) << 52;
     double power;
     __builtin_memcpy(&power, &bits, sizeof power);
-    return (size > 0) & (size < __builtin_inf()) ? power : 1;
+    return ((size > 0) & (size < __builtin_inf())) ? power : 1;
 }
 
 /// Whole numbers of units to sums: ewa_adjoint_scales().
@@ -124,7 +124,7 @@ LANE void way_pull_back(const ewa_disc_view *view, const disc_splat *s, const di
     to->focal_y -= moves ? by_y * y / fy : 0;
     const double perspective = flat ? 0 : by_lean;
     to->center = vec3_add(to->center, vec3_scale(n, perspective));
-    to->center.z += moves & !flat ? (by_bend * bend - by_sigma * sigma_px - by_sine * sine) / p.z : 0;
+    to->center.z += (moves & !flat) ? (by_bend * bend - by_sigma * sigma_px - by_sine * sine) / p.z : 0;
 }
 
 LANE void depth_pull_back(const ewa_disc_view *view, const disc_splat *s, const disc_moments *m, disc_cotangent *to) {

@@ -44,11 +44,12 @@ LANE disc_surfel load_disc(const ewa_disc_view *view, const ewa_disc_points *at,
     const ewa_vec3 n = vec3_scale(part, 1 / length);
     ewa_vec3 axes[2];
     ewa_frame_of(n, axes);
+    const ewa_vec3 size = {size_of(center.x), size_of(center.y), size_of(center.z)};
     return (disc_surfel){
         .center = center, .axis_u = vec3_scale(axes[0], sigma), .axis_v = vec3_scale(axes[1], sigma), .normal = n,
         .curvature = at->curvature[i], .given_length = largest * length,
         .drawable = (sigma >= 1 / limit) & (sigma <= limit) & (largest > 0) & (given.x - given.x == 0) & (given.y - given.y == 0) &
-                    (given.z - given.z == 0) & (size_of(center.x) <= limit) & (size_of(center.y) <= limit) & (size_of(center.z) <= limit)};
+                    (given.z - given.z == 0) & (size.x <= limit) & (size.y <= limit) & (size.z <= limit)};
 }
 
 /// Pixels whose centres lie in [low, high], within [0, size).

@@ -65,7 +65,7 @@ CASE(test_extra_bytes) {
                                           "i32", "u64", "i64", "f32", "f64"};
     static const ewa_type types[11] = {EWA_U8,  EWA_U8,  EWA_I8,  EWA_U16, EWA_I16, EWA_U32,
                                        EWA_I32, EWA_F64, EWA_F64, EWA_F32, EWA_F64};
-    uint8_t fields[14 * 192], vlr[54 + sizeof fields];
+    uint8_t fields[15 * 192], vlr[54 + sizeof fields];
     uint32_t extra_bytes = 0;
     for (uint8_t type = 1; type <= 10; type++) {
         describe(fields + 192 * (type - 1), names[type], type, 0);
@@ -79,15 +79,21 @@ CASE(test_extra_bytes) {
     las_put_f64(fields + 192 * 12 + 136, 100);
     describe(fields + 192 * 13, "gap", 9, 1);
     las_put_f64(fields + 192 * 13 + 40, 2.5);
-    extra_bytes += 6 + 6 + 2 + 4 + 5; // and five that nobody describes
+    describe(fields + 192 * 14, "vector", 24, 8 | 16); // i16 x 3
+    for (uint32_t c = 0; c < 3; c++) {
+        las_put_f64(fields + 192 * 14 + 112 + 8 * c, 0.5 + c);
+        las_put_f64(fields + 192 * 14 + 136 + 8 * c, 100 + 10 * c);
+    }
+    extra_bytes += 6 + 6 + 2 + 4 + 6 + 5; // and five that nobody describes
     const size_t vlr_bytes = las_vlr(vlr, "LASF_Spec", 4, fields, sizeof fields);
     las_sample s = las_make(1, 4, extra_bytes, 3, vlr, vlr_bytes, 1);
     uint8_t *record = s.bytes + s.points_at + 28;
-    const uint32_t scaled_at = extra_bytes - 11, gap_at = extra_bytes - 9;
+    const uint32_t scaled_at = extra_bytes - 17, gap_at = extra_bytes - 15, vector_at = extra_bytes - 11;
     las_put(record + scaled_at, (uint64_t)(int64_t)-5, 2);
     las_put(record + s.record_bytes + scaled_at, 6, 2);
     las_put(record + gap_at, 0x40200000, 4); // 2.5f
     las_put(record + s.record_bytes + gap_at, 0x40400000, 4);
+    for (uint32_t c = 0; c < 3; c++) las_put(record + vector_at + 2 * c, 4 + c, 2);
     OWNED(ewa_cloud_destroy) ewa_cloud *cloud = las_load(context, &s);
     uint32_t at = 0;
     for (uint8_t type = 1; type <= 10; type++) {
@@ -108,6 +114,8 @@ CASE(test_extra_bytes) {
     assert_true(isnan(las_value(cloud, "scaled", 0, 0)));
     assert_true(las_value(cloud, "scaled", 1, 0) == 103);
     assert_true(isnan(las_value(cloud, "gap", 0, 0)) && las_value(cloud, "gap", 1, 0) == 3);
+    for (uint32_t c = 0; c < 3; c++)
+        assert_true(las_value(cloud, "vector", 0, c) == (4 + c) * (0.5 + c) + 100 + 10 * c);
     assert_true(las_value(cloud, "extra_bytes", 0, 0) == record[extra_bytes - 5]);
     assert_true(las_value(cloud, "extra_bytes_1", 0, 0) == record[extra_bytes - 1]);
     assert_int_equal(messages.count, 0);
@@ -118,7 +126,7 @@ CASE(test_extra_bytes) {
     cloud = las_load(context, &s);
     assert_non_null(ewa_cloud_find(cloud, "u16"));
     assert_null(ewa_cloud_find(cloud, "i16"));
-    assert_non_null(strstr(messages.text, "field 4 of 14"));
+    assert_non_null(strstr(messages.text, "field 4 of 15"));
     free(s.bytes);
 }
 
