@@ -13,8 +13,8 @@
 /// Packets of which the sizes are looked at, at most.
 enum { SAMPLED_PACKETS = 1 << 11 };
 
-/// Octaves within which more parts take over.
-static const double BLEND = 0.125;
+/// Octaves within which more parts take over, in steps so many to an octave: the last bits of a logarithm differ between machines.
+static const double BLEND = 0.125, STEPS = 8192;
 
 /// Units of areas in a square pixel, and the largest area that one call adds.
 static const double AREA_UNIT = 0x1p24, LARGEST_AREA = 0x1p26;
@@ -49,7 +49,7 @@ ewa_division ewa_parts_for(double octaves, const ewa_camera *camera) {
     ewa_division parts = {.count = 1};
     for (int k = 0; k < 3 && octaves > k && 2 * parts.count * side_px <= EWA_CAMERA_MAX_SIDE_PX; k++) {
         if (octaves < k + BLEND) {
-            parts.finer_share = (octaves - k) / BLEND;
+            parts.finer_share = floor((octaves - k) * STEPS) / (BLEND * STEPS);
             break;
         }
         parts.count *= 2;
