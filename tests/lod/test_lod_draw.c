@@ -148,6 +148,27 @@ TEST_ON(test_like_plain, 2) {
     }
 }
 
+/// Nodes seen twice as large show an error twice as large: with twice the bound they are the same ones.
+TEST_ON(test_error_grows_with_nodes, 2) {
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
+    static const double errors[] = {0.125, 1, 8};
+    uint32_t different = 0, count = 0;
+    for (int i = 0; i < 3; i++) {
+        ewa_camera camera = camera_at(8);
+        camera.projection = EWA_ORTHOGRAPHIC, camera.fx_px = camera.fy_px = 24;
+        ewa_lod_options once = lod_options_of(errors[i], 64, 1 << 30), twice = lod_options_of(2 * errors[i], 64, 1 << 30);
+        once.max_splats = twice.max_splats = POINTS; // the picture's size bounds nothing
+        OWNED(check_free) shot *small = draw(lod, context, &camera, &once);
+        camera.fx_px = camera.fy_px = 48;
+        OWNED(check_free) shot *large = draw(lod, context, &camera, &twice);
+        assert_int_equal(small->stats.node_count, large->stats.node_count);
+        assert_int_equal(small->stats.surfel_count, large->stats.surfel_count);
+        print_message("error %g: %u nodes\n", errors[i], small->stats.node_count);
+        different += small->stats.node_count != count, count = small->stats.node_count;
+    }
+    assert_true(different >= 2); // the error does choose
+}
+
 TEST(test_threads) {
     static const uint32_t threads[] = {1, 2, 4, 8};
     const ewa_camera camera = camera_at(2.2);
