@@ -30,7 +30,7 @@ typedef struct cell {
 
 /// What is in memory of a bin while the file is read, and where the rest is.
 typedef struct bin {
-    uint64_t first_code, count;
+    uint64_t first_code, count, put; ///< put: of the count, into records
     ewa_buffer blocks; ///< of uint64_t: places in the temporary file
     size_t block_count;
     float *records; ///< that are in no block yet
@@ -165,8 +165,8 @@ static ewa_status count_cells(building *b) {
 static ewa_status make_bins(building *b) {
     const cell *cells = b->cells.data;
     for (uint32_t i = 0; i < b->cell_count; i++) {
-        bin *last = (bin *)b->bins.data + b->bin_count - 1;
-        if (b->bin_count && last->count + cells[i].count <= bin_room(b)) {
+        bin *last = b->bin_count ? (bin *)b->bins.data + b->bin_count - 1 : NULL;
+        if (last && last->count + cells[i].count <= bin_room(b)) {
             last->count += cells[i].count;
             continue;
         }
@@ -200,11 +200,17 @@ static streams streams_of(const ewa_gaussians *set) {
                      {3, 3, 4, 1, 3 * (size_t)ewa_sh_count(set->sh_degree)}};
 }
 
+/// A bin has the room that was counted, and no more.
+static ewa_status fail_changed(const building *b) {
+    return ewa_fail(b->context, EWA_ERROR_FORMAT, "%s: changed while it was read", b->source->name);
+}
+
 static ewa_status take_records(building *b, const ewa_gaussians *piece) {
     const streams from = streams_of(piece);
     ewa_morton_codes(b->context, &b->box, piece->centers, piece->count, b->codes);
     for (size_t i = 0; i < piece->count; i++) {
         bin *own = (bin *)b->bins.data + find(b->bins.data, sizeof *own, b->bin_count, b->codes[i]);
+        if (own->put++ == own->count) return fail_changed(b);
         float *to = own->records + own->filled++ * (size_t)b->numbers;
         for (int s = 0; s < 5; s++, to += from.numbers[s - 1]) memcpy(to, from.of[s] + from.numbers[s] * i, from.numbers[s] * sizeof(float));
         if (own->filled == b->block_records) EWA_TRY(put_block(b, own));
@@ -296,7 +302,11 @@ static ewa_status write_levels(building *b, const char *to) {
     EWA_TRY(make_bins(b));
     EWA_TRY(ewa_spool_open(b->context, to, &b->spool));
     EWA_TRY(each_piece(b, take_records));
-    for (uint32_t i = 0; i < b->bin_count; i++) EWA_TRY(put_block(b, (bin *)b->bins.data + i));
+    for (uint32_t i = 0; i < b->bin_count; i++) {
+        bin *own = (bin *)b->bins.data + i;
+        if (own->put != own->count) return fail_changed(b);
+        EWA_TRY(put_block(b, own));
+    }
     return write_bins(b, to);
 }
 
