@@ -172,6 +172,7 @@ bool bench_frames(cli_session *session, const bench_plan *plan, const bench_scen
     }
     ewa_render_options options = *render;
     options.cull = scene->cull;
+    options.supersampling = 1; // rows are of splats of a size, and the programs beside them divide no pixels
     if (scene->color_only) options.shading = EWA_SHADING_NONE;
     if (scene->glossy) {
         options.shading = EWA_SHADING_PHONG;
