@@ -101,6 +101,13 @@ class Camera:
         camera._lens = b.ewa_lens() if lens is None else lens
         return camera
 
+    @staticmethod
+    def _checked(given: object) -> Camera:
+        if isinstance(given, Camera):
+            return given
+        hint = "; ewa.cameras() reads those of a file" if isinstance(given, (str, os.PathLike)) else ""
+        raise TypeError(f"camera: an ewa.Camera, not {type(given).__name__}{hint}")
+
     def _copy(self) -> b.ewa_camera:
         return b.ewa_camera.from_buffer_copy(self._struct)
 

@@ -122,8 +122,7 @@ def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any 
     OutOfMemory, ClosedError
     """
     cloud = as_cloud(cloud)
-    if not isinstance(camera, Camera):
-        raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
+    camera = Camera._checked(camera)
     names = (by,) if isinstance(by, str) else tuple(by)
     if names == ("all",):
         names = (*STREAMS, "camera", "rgba")

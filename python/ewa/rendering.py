@@ -262,8 +262,7 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
         camera = placed
     elif camera is None:
         camera = Camera._of(world.place(view_options(size=size)))
-    elif not isinstance(camera, Camera):
-        raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
+    camera = Camera._checked(camera)
     if size is not None and tuple(size) != camera.size:
         camera = camera.resized(*size)
     made = initialised(b.ewa_scene_options, lib.ewa_scene_options_init)

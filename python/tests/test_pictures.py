@@ -214,8 +214,11 @@ class Pictures(Case):
                 ewa.render(scene, self.camera)  # type: ignore[arg-type]
         with self.assertRaises(ewa.ArgumentError):
             ewa.render([], self.camera)
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "an ewa.Camera, not ndarray$"):
             ewa.render(self.cloud, np.eye(4))  # type: ignore[arg-type]
+        for draw in (ewa.render, ewa.render_backward):
+            with self.assertRaisesRegex(TypeError, r"not str; ewa.cameras\(\) reads those of a file"):
+                draw(self.cloud, "camera.json")  # type: ignore[operator]
 
 
 class Others(Case):
