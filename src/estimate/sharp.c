@@ -16,6 +16,10 @@ static const double FLAT = 0.99995, SHARP = 0.87;
 /// of one of 1 M points two in a hundred are on an edge; of surveys and of scans with several depths a tenth is on no surface.
 static const double FLAT_SHARE = 0.15, SHARP_SHARE = 0.005, STREWN_SHARE = 0.02;
 
+/// Places that are neither flat nor sharp, at most, for each sharp one: 1 of cubes, 8 of a part of 1 M points with round holes, 50 of a
+/// landscape whose ridges are sharp, which has no faces.
+static const double BENT_SHARE = 16;
+
 bool ewa_sharp_find(uint32_t place_count, const curvature_input *input, const uint8_t *strewn) {
     const uint32_t step = place_count / SAMPLES + 1;
     uint32_t looked = 0, flat = 0, sharp = 0, off = 0;
@@ -32,5 +36,6 @@ bool ewa_sharp_find(uint32_t place_count, const curvature_input *input, const ui
         sharp += min_cosine < SHARP;
         off += strewn && strewn[place] > UINT8_MAX / 2;
     }
-    return looked >= MIN_SAMPLES && flat >= FLAT_SHARE * looked && sharp >= SHARP_SHARE * looked && off <= STREWN_SHARE * looked;
+    return looked >= MIN_SAMPLES && flat >= FLAT_SHARE * looked && sharp >= SHARP_SHARE * looked && off <= STREWN_SHARE * looked &&
+           looked - flat - sharp <= BENT_SHARE * sharp;
 }

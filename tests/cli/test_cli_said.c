@@ -307,6 +307,8 @@ TEST(dots) {
     run_done("ewa generate cube -n 5000 -o cube.ply && ewa convert cube.ply -o cube.csv");
     says("cube.csv: flat faces that meet in sharp edges; `ewa features` makes these clean",
          "cut -d , -f 1-3 cube.csv > bare.csv && mv bare.csv cube.csv && ewa render cube.csv -o auto.png --size 64x48");
+    run_done("ewa generate terrain -n 1000000 -o hills.ply --positions-only && ewa render hills.ply -o hills.png --size 64x48");
+    assert_null(strstr(last_run.err, "sharp edges"));
     says("8 points on no surface: drawn as dots of 6 pixels|--point-size", "ewa render eight.xyz -o auto.png --size 64x48");
     run_done("ewa render eight.xyz -o six.png --size 64x48 --point-size 6");
     assert_null(strstr(last_run.err, "--point-size"));
