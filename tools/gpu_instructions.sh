@@ -60,7 +60,7 @@ compute() {
     {
         echo "#version 430 core"
         for define in MAX_LIGHTS=8 MAX_LEVELS=33 MAX_MATERIALS=256 MAX_SECTIONS=8 MERGED_SURFACES=8 CONE_BITS=11 CONE_AXIS=1023 \
-            CONE_SINE=1022u RADIUS_SHIFT=15 TILE_PX=8 CHANNELS=7 WITH_NORMAL=1 WITH_DEPTH=0 DEPTH_CHANNEL=7u WITH_MATERIAL=0 \
+            CONE_SINE=1022u RADIUS_SHIFT=15 EYE_DOME_REACH=4 TILE_PX=8 CHANNELS=7 WITH_NORMAL=1 WITH_DEPTH=0 DEPTH_CHANNEL=7u WITH_MATERIAL=0 \
             WITH_OPACITY=0 WITH_CLIPS=0 WITH_NEARS=0 WITH_FINE=0 RAYS=0 $defines; do
             echo "#define ${define%=*} ${define#*=}"
         done
@@ -116,5 +116,6 @@ for arithmetic in native emulated; do
     compute "accumulation, $arithmetic" "$own PASS=2" scene splat sums passes
     compute "first surface, $arithmetic" "$own PASS=3" sums surface
     compute "edges, $arithmetic" "$own PASS=4" scene splat sums passes surface edges
-    compute "picture, $arithmetic" "$own PASS=5" sums surface
+    compute "picture, $arithmetic" "$own PASS=5" sums codes surface
+    compute "eye-dome lighting, $arithmetic" "$own PASS=6" codes eye_dome
 done

@@ -4,11 +4,12 @@
 // A band of rows on the device: programs one behind the other, which find their work in what those before them have counted. The
 // host waits once, at the end. What it has to make (host_records.h) takes one wait more, and what found no room is
 // drawn again with more of it.
-#include "gl/compute.h"
+#include "gl/eye_dome.h"
+#include "gl/result.h"
 
 #include <string.h>
 
-enum { THREADS = 64, PLANES = 4, READBACK_HEAD = 64 };
+enum { THREADS = 64, READBACK_HEAD = 64 };
 
 /// The numbers of a band.
 typedef struct band {
@@ -16,25 +17,10 @@ typedef struct band {
     ewa_gl_rows rows;
     uint32_t width_px, height_px;                ///< whole blocks
     uint32_t tiles_per_row, tile_count, source_pages, parts;
-    uint64_t result_words;
+    ewa_gl_result result;
+    const ewa_eye_dome_pass *eye_dome; ///< lights it on the device; NULL: nothing does
     bool has_host_records;
 } band;
-
-/// A plane of the frame, 4 bytes a float.
-typedef struct wanted_plane {
-    float *plane; ///< NULL: it is not wanted
-    uint32_t floats;
-} wanted_plane;
-
-/// The planes in the order in which the device has them, behind the bytes.
-static void list_planes(const ewa_resolve *to, wanted_plane planes[PLANES]) {
-    planes[0] = (wanted_plane){to->rgba, 4}, planes[1] = (wanted_plane){to->depth, 1};
-    planes[2] = (wanted_plane){to->normal, 3}, planes[3] = (wanted_plane){to->coverage, 1};
-}
-
-static uint64_t pixel_count(const band *b) {
-    return (uint64_t)b->job->tiles.width_px * (b->rows.end_px - b->rows.first_px);
-}
 
 static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
@@ -103,7 +89,7 @@ static ewa_status reserve_planes(ewa_gl_compute *gl, const band *b) {
                  {EWA_GL_BACK_FACING, sums, true, 0},
                  {EWA_GL_CUT, job->with_clips ? CUT_WORDS * pixels + blocks : 0, true, 0},
                  {EWA_GL_SURFACES, (channels + BEHIND) * pixels, false, 0},
-                 {EWA_GL_RESULT, b->result_words, false, 0}};
+                 {EWA_GL_RESULT, b->result.words, false, 0}};
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         ewa_gl_buffer *buffer = &gl->buffers[needs[i].kind];
         const uint64_t before_bytes = buffer->size_bytes;
@@ -112,7 +98,7 @@ static ewa_status reserve_planes(ewa_gl_compute *gl, const band *b) {
             ewa_gl_buffer_fill(buffer, buffer->size_bytes, needs[i].start);
     }
     gl->buffers[EWA_GL_READBACK].usage = GL_STREAM_READ;
-    return reserve(gl, EWA_GL_READBACK, "the picture", READBACK_HEAD + b->result_words * sizeof(uint32_t));
+    return reserve(gl, EWA_GL_READBACK, "the picture", READBACK_HEAD + b->result.read_words * sizeof(uint32_t));
 }
 
 /// Tells the programs of the band, whose counts begin at 0.
@@ -136,13 +122,7 @@ static ewa_status put_band(ewa_gl_compute *gl, const band *b) {
                                .group_limit = gl->device->facts.group_count,
                                .parts = b->parts,
                                .has_host_records = b->has_host_records};
-    wanted_plane planes[PLANES];
-    list_planes(&job->resolve, planes);
-    uint64_t at = block.with_codes ? pixel_count(b) : 0;
-    for (int i = 0; i < PLANES; i++) {
-        block.plane_at[i] = planes[i].plane ? (int32_t)at : -1;
-        if (planes[i].plane) at += planes[i].floats * pixel_count(b);
-    }
+    for (int i = EWA_GL_COLORS; i < EWA_GL_PLANES; i++) block.plane_at[i - EWA_GL_COLORS] = (int32_t)b->result.planes[i].at;
     EWA_TRY(put(gl, EWA_GL_BAND, "the band", &block, sizeof block));
     static const uint8_t none[sizeof(ewa_gl_tally) + EWA_GL_OF_PAGES * EWA_GL_ARGUMENT_BYTES];
     return put(gl, EWA_GL_COUNTS, "counts", none, sizeof none);
@@ -326,13 +306,18 @@ static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
     if (b->job->layers > 1) EWA_TRY(pass_over(gl, b, EWA_GL_EDGES, EWA_GL_TIME_EDGES));
     EWA_TRY(use(gl, b, EWA_GL_PICTURE));
     dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
+    if (b->eye_dome) {
+        uint64_t group_count;
+        EWA_TRY(ewa_gl_eye_dome_use(gl, &b->eye_dome->eye_dome, &group_count));
+        dispatch(gl, group_count, EWA_GL_TIME_RESOLVE);
+    }
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_READBACK].name);
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
     glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, sizeof(ewa_gl_tally));
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_RESULT].name);
-    if (b->result_words)
+    if (b->result.read_words)
         glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, READBACK_HEAD,
-                            (GLsizeiptr)(b->result_words * sizeof(uint32_t)));
+                            (GLsizeiptr)(b->result.read_words * sizeof(uint32_t)));
     return ewa_gl_check(gl->device, "the picture");
 }
 
@@ -353,26 +338,16 @@ static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outco
     gl->device->counts.readbacks++;
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_READBACK].name);
     const uint8_t *from = glMapBufferRange(
-        GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(READBACK_HEAD + b->result_words * sizeof(uint32_t)), GL_MAP_READ_BIT);
+        GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(READBACK_HEAD + b->result.read_words * sizeof(uint32_t)), GL_MAP_READ_BIT);
     if (!from) return ewa_gl_check(gl->device, "the picture");
     ewa_gl_tally tally;
     memcpy(&tally, from, sizeof tally);
     ewa_status status = check_band(gl, b, &tally, again);
     if (status == EWA_OK && !*again) {
-        const ewa_resolve *to = &b->job->resolve;
-        const uint64_t first = (uint64_t)b->job->tiles.width_px * b->rows.first_px, pixels = pixel_count(b);
-        from += READBACK_HEAD;
-        if (to->rgba8) memcpy(to->rgba8 + first * 4, from, pixels * 4), from += pixels * 4;
-        wanted_plane planes[PLANES];
-        list_planes(to, planes);
-        for (int i = 0; i < PLANES; i++) {
-            if (!planes[i].plane) continue;
-            const uint64_t floats = pixels * planes[i].floats;
-            memcpy(planes[i].plane + first * planes[i].floats, from, floats * sizeof(float));
-            from += floats * sizeof(float);
-        }
+        ewa_gl_result_copy(&b->result, from + READBACK_HEAD);
         outcome->broken += tally.broken_count, outcome->drawn += tally.list_count;
         outcome->kept_packets = tally.kept_count;
+        outcome->lit = b->eye_dome != NULL;
     }
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_READBACK].name);
     glUnmapBuffer(GL_COPY_READ_BUFFER);
@@ -413,11 +388,9 @@ ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_
     b.height_px = (rows.end_px - rows.first_px + SIDE - 1) / SIDE * SIDE;
     b.tiles_per_row = (b.width_px + gl->tile_px - 1) / gl->tile_px;
     b.tile_count = b.tiles_per_row * ((b.height_px + gl->tile_px - 1) / gl->tile_px);
-    wanted_plane planes[PLANES];
-    list_planes(&job->resolve, planes);
-    b.result_words = job->resolve.rgba8 ? pixel_count(&b) : 0;
-    for (int i = 0; i < PLANES; i++)
-        if (planes[i].plane) b.result_words += planes[i].floats * pixel_count(&b);
+    b.eye_dome = ewa_gl_eye_dome_of(gl, job, rows);
+    b.result = ewa_gl_result_of(&job->resolve, b.eye_dome, (uint64_t)job->tiles.width_px * rows.first_px,
+                                (uint64_t)job->tiles.width_px * (rows.end_px - rows.first_px));
     const uint32_t *indices = gl->indices.data;
     for (uint32_t i = 0; i < job->source_count; i++)
         b.source_pages += ewa_gl_residents_at(&gl->residents, indices[i])->page_count;

@@ -169,6 +169,7 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     if (status == EWA_OK) status = draw_rows(gl, &job, frame->first_row_px, frame->end_row_px, &outcome);
     ewa_gl_leave(gl->device);
     EWA_TRY(status);
+    if (outcome.lit) gl->room.with_eye_dome = false;
     ewa_job_finish(gl->context, &gl->room, frame, outcome.broken);
     *stats = (ewa_render_stats){0};
     ewa_gl_times_tell(&gl->times, stats);

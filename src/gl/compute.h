@@ -62,6 +62,7 @@ typedef struct ewa_gl_fit {
 typedef struct ewa_gl_outcome {
     uint64_t broken, drawn; ///< pixels without a colour; records in tiles
     uint64_t kept_packets;  ///< that some field of the picture has
+    bool lit;               ///< the device has put eye-dome lighting on it
 } ewa_gl_outcome;
 
 typedef struct ewa_gl_compute {

@@ -61,10 +61,11 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
                                  "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
                                  "#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MERGED_SURFACES %d\n"
                                  "#define MAX_MATERIALS %d\n#define MAX_SECTIONS %d\n#define CONE_BITS %d\n"
-                                 "#define CONE_AXIS %d\n#define CONE_SINE %du\n#define RADIUS_SHIFT %d\n",
+                                 "#define CONE_AXIS %d\n#define CONE_SINE %du\n#define RADIUS_SHIFT %d\n#define EYE_DOME_REACH %d\n",
                                  arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
                                  EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES, EWA_MAX_MATERIALS,
-                                 EWA_MAX_SECTION_PLANES, EWA_CONE_BITS, EWA_CONE_AXIS, EWA_CONE_SINE, EWA_RADIUS_SHIFT);
+                                 EWA_MAX_SECTION_PLANES, EWA_CONE_BITS, EWA_CONE_AXIS, EWA_CONE_SINE, EWA_RADIUS_SHIFT,
+                                 EWA_EYE_DOME_REACH);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
         uint32_t bits;
         memcpy(&bits, &constants[i].value, sizeof bits);
@@ -87,13 +88,15 @@ void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_vari
         [EWA_GL_FIRST_SURFACE] = {ewa_shader_sums, ewa_shader_surface},
         [EWA_GL_EDGES] = {ewa_shader_scene, ewa_shader_splat, ewa_shader_sums, ewa_shader_passes, ewa_shader_surface,
                           ewa_shader_edges},
-        [EWA_GL_PICTURE] = {ewa_shader_sums, ewa_shader_surface},
+        [EWA_GL_PICTURE] = {ewa_shader_sums, ewa_shader_codes, ewa_shader_surface},
+        [EWA_GL_EYE_DOME] = {ewa_shader_codes, ewa_shader_eye_dome},
     };
     static const int pass_numbers[] = {[EWA_GL_VISIBILITY] = 1,
                                        [EWA_GL_SUMS] = 2,
                                        [EWA_GL_FIRST_SURFACE] = 3,
                                        [EWA_GL_EDGES] = 4,
-                                       [EWA_GL_PICTURE] = 5};
+                                       [EWA_GL_PICTURE] = 5,
+                                       [EWA_GL_EYE_DOME] = 6};
     const size_t at = ewa_gl_head_write(arithmetic, source->head);
     snprintf(source->head + at, sizeof source->head - at,
              "#define PASS %d\n#define TILE_PX %d\n#define CHANNELS %d\n#define WITH_NORMAL %d\n"
@@ -116,7 +119,8 @@ static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ew
                                         [EWA_GL_SUMS] = "accumulation",
                                         [EWA_GL_FIRST_SURFACE] = "first surface",
                                         [EWA_GL_EDGES] = "edges",
-                                        [EWA_GL_PICTURE] = "picture"};
+                                        [EWA_GL_PICTURE] = "picture",
+                                        [EWA_GL_EYE_DOME] = "eye-dome lighting"};
     ewa_gl_source source;
     ewa_gl_variant_write(&variants->arithmetic, v, &source);
     const ewa_gl_stage stage = {GL_COMPUTE_SHADER, source.head, source.pieces, source.piece_count};

@@ -66,6 +66,45 @@ TEST_ON(test_division_has_no_say, 0) {
     }
 }
 
+/// The device lights what is drawn in one band, the processor what bands have drawn; with planes and without, over nothing and over
+/// colours, of pictures that no group of pixels fits.
+TEST_ON(test_eye_dome, 0) {
+    static const char *const tunings[] = {"", "arith=emulated", "storage=3800000"};
+    OWNED(picture_free) picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
+    OWNED(scene_free) scene of;
+    assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
+    ewa_surfels *parts[1];
+    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
+    ewa_renderer *cpu = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, options);
+    options.eye_dome = 1;
+    const size_t pixels = (size_t)WIDTH_PX * HEIGHT_PX;
+    for (size_t t = 0; t < sizeof tunings / sizeof tunings[0]; t++) {
+        OWNED(ewa_renderer_destroy) ewa_renderer *gl = open_tuned(context, tunings[t]);
+        for (int kind = t ? 2 : 0; kind < 4; kind++) {
+            of.camera.projection = kind & 1 ? EWA_ORTHOGRAPHIC : EWA_PERSPECTIVE;
+            options.opacity = kind & 2 ? 0.6 : 1;
+            for (int c = 0; c < 4; c++) options.background[c] = kind & 2 ? 0.3f + 0.2f * (float)c : 0;
+            draw(cpu, parts, "0", &of, &options, &expected);
+            draw(gl, parts, "0", &of, &options, &found);
+            assert_same(&expected, &found, tunings[t]);
+            const ewa_frame bytes = {.rgba8 = found.frame.rgba8}, colors = {.rgba = found.frame.rgba};
+            memset(bytes.rgba8, 1, 4 * pixels), memset(colors.rgba, 1, 16 * pixels);
+            assert_int_equal(ewa_render(gl, parts[0], &of.camera, &options, &bytes, NULL), EWA_OK);
+            assert_int_equal(ewa_render(gl, parts[0], &of.camera, &options, &colors, NULL), EWA_OK);
+            assert_same(&expected, &found, "a plane alone");
+            ewa_renderer_info info = {.struct_size = sizeof info};
+            assert_int_equal(ewa_renderer_describe(gl, &info), EWA_OK);
+            assert_int_equal(info.wait_count, t == 2 ? 2 : 1);
+        }
+    }
+    options.eye_dome = 0;
+    draw(cpu, parts, "0", &of, &options, &found);
+    assert_memory_not_equal(expected.frame.rgba8, found.frame.rgba8, 4 * pixels);
+    ewa_renderer_destroy(&cpu);
+    ewa_surfels_destroy(&parts[0]);
+}
+
 TEST_ON(test_pixels_of_parts, 0) {
     enum { SMALL_PX = 40 };
     OWNED(picture_free) picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);

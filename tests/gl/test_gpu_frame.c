@@ -50,6 +50,25 @@ TEST(test_counts) {
     assert_true(none.wait_count + none.readback_count + none.dispatch_count == 0 && none.upload_bytes == 0);
 }
 
+/// Eye-dome lighting is a program more, and nothing else: its depths and colours stay on the device.
+TEST(test_eye_dome) {
+    OWNED(gpu_scene_free) gpu_scene at;
+    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    ewa_renderer_info infos[2];
+    for (int lit = 0; lit < 2; lit++) {
+        at.options.eye_dome = lit;
+        for (int frame = 0; frame < 2; frame++) assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+        assert_true(gpu_scene_same(&at, rgba8));
+        infos[lit] = info_of(renderer);
+    }
+    assert_int_equal(infos[1].wait_count, 1);
+    assert_int_equal(infos[1].readback_count, 1);
+    assert_int_equal(infos[1].dispatch_count, infos[0].dispatch_count + 1);
+    assert_int_equal(infos[1].upload_bytes, infos[0].upload_bytes);
+}
+
 /// Of a camera among the surfels some touch the eye's plane, which the host draws up: one wait more. It gets them, and from
 /// elsewhere the frame is as ever.
 TEST(test_near) {
