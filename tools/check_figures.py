@@ -70,9 +70,9 @@ def main():
         for first, prose, whole in sections(text):
             flat = re.sub(r"\s", " ", prose)
             for words in listed.get(page, ()):
-                for at in [m.start() for m in re.finditer(re.escape(words), flat)]:
+                for match in list(re.finditer(" +".join(map(re.escape, words.split(" "))), flat)):
                     listed[page][words] = True
-                    flat = flat[:at] + " " * len(words) + flat[at + len(words):]
+                    flat = flat[:match.start()] + blank(match) + flat[match.end():]
             figures = figures_of(flat, prose)
             counted += len(figures)
             for both in (whole, head.group() if head else ""):
