@@ -11,8 +11,9 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-/// Frames that are written at the same time, at most: each holds its planes.
-enum { MAX_SLOTS = 8 };
+/// Frames that are written at the same time, at most: each holds its planes. Of a film alone one goes to ffmpeg while the next
+/// is drawn.
+enum { MAX_SLOTS = 8, FILM_SLOTS = 2 };
 
 /// The files of one frame.
 typedef struct frame_files {
@@ -94,10 +95,20 @@ static bool check_sizes(cli_session *session, const char *film, const frame_came
     return true;
 }
 
+/// Whose turn it is to go to ffmpeg, which takes frames in their order from whatever thread.
+typedef struct film_queue {
+    cli_video video;
+    pthread_mutex_t mutex;
+    pthread_cond_t moved;
+    size_t next;  ///< place of the frame that goes next
+    bool stopped; ///< one could not: none after it does
+} film_queue;
+
 /// A frame on its way: drawn by the main thread, written by one of its own. Everything that writing touches
 /// is of the context of the slot.
 typedef struct frame_slot {
     cli_session *session, own; ///< the program's, or its own beside a thread
+    film_queue *film;          ///< NULL: no film
     cli_picture picture;
     frame_files files;
     const ewa_camera *camera;
@@ -115,7 +126,7 @@ typedef struct sequence {
     const sequence_output *output;
     const frame_cameras *frames;
     const frame_painter *painter;
-    cli_video video;
+    film_queue film;
     frame_slot slots[MAX_SLOTS];
     size_t slot_count;
     render_report *report;
@@ -125,12 +136,40 @@ typedef struct sequence {
     char subject[1024];              ///< names the frame that is drawn
 } sequence;
 
+/// Waits until the frames before one are with ffmpeg; false when one of them could not be.
+static bool await_turn(film_queue *film, size_t place) {
+    pthread_mutex_lock(&film->mutex);
+    while (film->next != place && !film->stopped) pthread_cond_wait(&film->moved, &film->mutex);
+    const bool stopped = film->stopped;
+    pthread_mutex_unlock(&film->mutex);
+    return !stopped;
+}
+
+/// Lets the next frame go, or none.
+static void end_turn(film_queue *film, bool put) {
+    pthread_mutex_lock(&film->mutex);
+    film->next++;
+    film->stopped |= !put;
+    pthread_cond_broadcast(&film->moved);
+    pthread_mutex_unlock(&film->mutex);
+}
+
+/// Hands the frame of a slot to ffmpeg, if its files could be written.
+static void put_in_turn(frame_slot *slot) {
+    slot->saved = await_turn(slot->film, slot->place) && slot->saved;
+    const double started_s = clock_now_s();
+    slot->saved = slot->saved && video_put(slot->session, &slot->film->video, slot->picture.rgba8);
+    slot->write_s += clock_now_s() - started_s;
+    end_turn(slot->film, slot->saved);
+}
+
 /// The thread of a slot.
 static void *save_slot(void *data) {
     frame_slot *slot = data;
     const double started_s = clock_now_s();
     slot->saved = picture_save(slot->session, &slot->files.paths, slot->camera, slot->opaque, &slot->picture);
-    slot->write_s += clock_now_s() - started_s;
+    slot->write_s = clock_now_s() - started_s;
+    if (slot->film) put_in_turn(slot);
     return NULL;
 }
 
@@ -190,24 +229,23 @@ static bool draw_frame(sequence *all, size_t place) {
     if (!session_passed(all->session, status)) return false;
     all->session->subject = slot->session->subject = NULL;
     if (all->mute) return all->written[place] = true;
-    const bool put = !all->output->film || video_put(all->session, &all->video, slot->picture.rgba8);
-    slot->write_s = clock_now_s() - started_s - slot->render_s;
-    if (put) start_saving(all, slot);
-    return put;
+    start_saving(all, slot);
+    return true;
 }
 
-/// Makes the slots: one picture is written by all workers, many by one each. A film alone needs no writing
-/// here. False after reporting.
+/// Makes the slots: one picture is written by all workers, many by one each. False after reporting.
 static bool make_slots(sequence *all) {
     const picture_paths *paths = all->output->paths;
     const bool writes = paths->color || paths->depth[0] || paths->normal[0] || paths->coverage[0];
-    const size_t workers = writes ? ewa_context_worker_count(all->session->context) : 1;
+    size_t workers = writes ? ewa_context_worker_count(all->session->context) : 1;
+    if (all->output->film && workers < FILM_SLOTS) workers = FILM_SLOTS;
     const size_t count = all->frames->chosen_count, wanted = count < workers ? count : workers;
     all->slot_count = wanted < MAX_SLOTS ? wanted : MAX_SLOTS;
     for (size_t i = 0; i < all->slot_count; i++) {
         frame_slot *slot = &all->slots[i];
         slot->session = all->session;
         slot->opaque = all->output->opaque;
+        slot->film = all->output->film ? &all->film : NULL;
         if (all->slot_count == 1) continue;
         slot->session = &slot->own;
         slot->own = *all->session;
@@ -288,20 +326,21 @@ bool sequence_draw(cli_session *session, const sequence_output *output, const fr
                     .painter = painter,
                     .report = report,
                     .mute =
-                        process_group_shares_cloud(session->group) && !process_group_leads(session->group)};
+                        process_group_shares_cloud(session->group) && !process_group_leads(session->group),
+                    .film = {.mutex = PTHREAD_MUTEX_INITIALIZER, .moved = PTHREAD_COND_INITIALIZER}};
     all.written = calloc(frames->chosen_count, sizeof *all.written);
     if (!all.written) session_fail(session, "out of memory for %zu frames", frames->chosen_count);
     bool done = all.written && make_slots(&all) &&
                 (!output->film || all.mute ||
                  (check_sizes(session, output->film, frames) &&
-                  video_start(session, output->film, &settings, &all.video))) &&
+                  video_start(session, output->film, &settings, &all.film.video))) &&
                 draw_all(&all);
     if (done && output->film && !all.mute) {
         const double started_s = clock_now_s();
-        done = video_finish(session, &all.video);
+        done = video_finish(session, &all.film.video);
         report->write_s += clock_now_s() - started_s;
     }
-    video_drop(&all.video);
+    video_drop(&all.film.video);
     free_slots(&all);
     if (all.written && !done && output->numbered && !output->film) report_written(&all);
     if (done) report_empty(&all);

@@ -26,6 +26,9 @@ static int enter(void **state) {
     fake_program("fake", "printf '%s\\n' \"$@\" >words\nfor last; do :; done\nwc -c >\"${last#file:}\"");
     fake_program("broken", "echo 'Unknown encoder' >&2\nexit 3");
     fake_program("dying", "kill -9 $$");
+    // Takes nothing before the second frame is drawn and its depths are written; "late" where that is not before 20 s are over.
+    fake_program("waiting", "for last; do :; done\ni=0\nwhile ! test -s depth_1.exr && test $i -lt 200; do sleep 0.1; i=$((i+1)); done\n"
+                            "test $i -lt 200 && echo early >when || echo late >when\ncat >\"${last#file:}\"");
     return run("ewa generate torus -n 5000 -o torus.ply && ewa generate cube -n 3000 -o cube.ply");
 }
 
@@ -153,6 +156,21 @@ TEST(test_film) {
              2 * 31 * 17 * 4);
     run_done("PATH=$PWD/fake:$PATH && ewa render torus.ply -o films/a.gif --turntable 2 --size 32x16 && "
              "! grep -q -- -crf words && test $(ls -A films | wc -l) = 3");
+}
+
+/// While one frame is on its way to ffmpeg the next is drawn; they come in their order, with files beside them and without.
+TEST(test_film_frames_overlap) {
+    run("rm -rf films depth_*.exr && mkdir films");
+    run_done("PATH=$PWD/waiting:$PATH && ewa render torus.ply -o films/a.mp4 --aov depth=depth_%%d.exr --turntable 5 --size 160x120 && "
+             "grep -qx early when && test $(wc -c <films/a.mp4) = %d",
+             5 * 160 * 120 * 4);
+    run_done("PATH=$PWD/waiting:$PATH && ewa render torus.ply -o films/b.mp4 --turntable 5 --size 160x120 && "
+             "ewa render torus.ply -o films/c.mp4 --turntable 5 --size 160x120 --threads 1 && cmp films/a.mp4 films/b.mp4 && "
+             "cmp films/b.mp4 films/c.mp4");
+    // The files of a frame that cannot be written keep it and those after it out of the film.
+    run("rm -rf films/* depth_*.exr && mkdir depth_2.exr");
+    run_fails(1, "depth_2.exr", "PATH=$PWD/fake:$PATH && ewa render torus.ply -o films/a.mp4 --aov depth=depth_%%d.exr --turntable 9 --size 64x48");
+    assert_int_equal(run("rmdir depth_2.exr && test $(ls -A films | wc -l) = 0"), 0);
 }
 
 TEST(test_film_fails) {
