@@ -16,7 +16,7 @@ typedef struct band {
     const ewa_tile_job *job;
     ewa_gl_rows rows;
     uint32_t width_px, height_px;                ///< whole blocks
-    uint32_t tiles_per_row, tile_count, source_pages, parts;
+    uint32_t tiles_per_row, tile_count, parts;
     ewa_gl_result result;
     const ewa_eye_dome_pass *eye_dome; ///< lights it on the device; NULL: nothing does
     bool has_host_records;
@@ -59,7 +59,7 @@ static ewa_status reserve_work(ewa_gl_compute *gl, const band *b) {
         marks->list = (uint32_t)smaller(LIST, fit / EWA_GL_ENTRY_BYTES);
         marks->units = (uint32_t)smaller(2 * (uint64_t)b->tile_count, fit / EWA_GL_UNIT_BYTES);
     }
-    const uint64_t arguments = (uint64_t)(EWA_GL_OF_PAGES + b->source_pages) * EWA_GL_ARGUMENT_BYTES;
+    const uint64_t arguments = (uint64_t)(EWA_GL_OF_PAGES + gl->use_count) * EWA_GL_ARGUMENT_BYTES;
     EWA_TRY(reserve(gl, EWA_GL_PAIRS, "packets", (uint64_t)marks->pairs * EWA_GL_PAIR_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_RECORDS, "splats", (uint64_t)marks->pairs * PAIR_RECORD_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_HOST_REQUESTS, "near surfels", 2 * (uint64_t)marks->requests * sizeof(ewa_gl_host_request)));
@@ -132,7 +132,7 @@ static void bind(const ewa_gl_compute *gl, GLuint binding, ewa_gl_buffer_kind ki
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, gl->buffers[kind].name);
 }
 
-/// What programs see up to the lists; pages have 1, 2 and 4.
+/// What programs see up to the lists; pages have 1, 2, 4, 10, 14 and 15, and while they are set up segments 6.
 static void bind_lists(const ewa_gl_compute *gl) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl->buffers[EWA_GL_BAND].name);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
@@ -193,37 +193,38 @@ static void dispatch_counted(ewa_gl_compute *gl, uint32_t argument, ewa_gl_time 
     end_dispatch(gl, stage);
 }
 
-/// Culls the packets of all pages, then sets up what is left of them.
+/// What programs see of a page; of a part that none of its packets has, another stands there, which they do not read.
+static void bind_page(const ewa_gl_page *page) {
+    static const GLuint bindings[EWA_GL_PARTS] = {[EWA_GL_PACKETS] = 1,     [EWA_GL_BOUNDS] = 2,
+                                                  [EWA_GL_OPACITIES] = 4,   [EWA_GL_CURVATURES] = 10,
+                                                  [EWA_GL_MATERIALS] = 14,  [EWA_GL_CLIP_MASKS] = 15};
+    for (int part = 0; part < EWA_GL_PARTS; part++) {
+        const GLuint name = page->parts[part].name;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings[part], name ? name : page->parts[EWA_GL_BOUNDS].name);
+    }
+}
+
+/// Culls the packets of all pages, then sets up what is left of them: a dispatch of each for a page, whatever the number of
+/// its sources.
 static ewa_status set_up(ewa_gl_compute *gl, const band *b) {
-    enum { PAGE, FIRST, SOURCE, OPACITIES_AT, CURVATURES_AT, MATERIALS_AT, PACKET_COUNT = 1, CLIPS_AT = 3 };
-    const ewa_tile_job *job = b->job;
-    const uint32_t *indices = gl->indices.data;
+    enum { PAGE, FIRST_SEGMENT, END_SEGMENT };
+    const ewa_gl_page_use *uses = gl->uses.data;
+    bind(gl, 6, EWA_GL_SEGMENTS);
     for (int pass = EWA_GL_CULL; pass <= EWA_GL_SETUP; pass++) {
         EWA_TRY(use(gl, b, (ewa_gl_pass)pass));
-        for (uint32_t i = 0, number = 0; i < job->source_count; i++) {
-            const ewa_gl_resident *resident = ewa_gl_residents_at(&gl->residents, indices[i]);
-            const ewa_packet_source *packets = &job->sources[i].packets;
-            for (uint32_t k = 0; k < resident->page_count; k++, number++) {
-                const ewa_gl_page *page = &resident->pages[k];
-                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, page->packets.name);
-                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, page->bounds.name);
-                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, page->attributes.name);
-                glUniform1ui(PAGE, number);
-                glUniform1ui(SOURCE, i);
-                if (pass == EWA_GL_CULL) {
-                    glUniform1ui(PACKET_COUNT, page->count);
-                    glUniform1i(CLIPS_AT, packets->clip_masks ? page->clips_at : -1);
-                    dispatch(gl, (page->count + THREADS - 1) / THREADS, EWA_GL_TIME_BIN);
-                } else {
-                    glUniform1ui(FIRST, page->first);
-                    glUniform1i(OPACITIES_AT, job->with_opacity ? page->opacities_at : -1);
-                    glUniform1i(CURVATURES_AT, packets->curvatures ? page->curvatures_at : -1);
-                    glUniform1i(MATERIALS_AT, job->with_materials ? page->materials_at : -1);
-                    dispatch_counted(gl, EWA_GL_OF_PAGES + number, EWA_GL_TIME_SETUP);
-                }
+        for (uint32_t i = 0; i < gl->use_count; i++) {
+            bind_page(ewa_gl_residents_page(&gl->residents, uses[i].page));
+            glUniform1ui(PAGE, i);
+            if (pass == EWA_GL_CULL) {
+                glUniform1ui(FIRST_SEGMENT, uses[i].first);
+                glUniform1ui(END_SEGMENT, uses[i].end);
+                dispatch(gl, uses[i].group_count, EWA_GL_TIME_BIN);
+            } else {
+                dispatch_counted(gl, EWA_GL_OF_PAGES + i, EWA_GL_TIME_SETUP);
             }
         }
     }
+    bind_lists(gl);
     return ewa_gl_check(gl->device, "set-up");
 }
 
@@ -391,9 +392,6 @@ ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_
     b.eye_dome = ewa_gl_eye_dome_of(gl, job, rows);
     b.result = ewa_gl_result_of(&job->resolve, b.eye_dome, (uint64_t)job->tiles.width_px * rows.first_px,
                                 (uint64_t)job->tiles.width_px * (rows.end_px - rows.first_px));
-    const uint32_t *indices = gl->indices.data;
-    for (uint32_t i = 0; i < job->source_count; i++)
-        b.source_pages += ewa_gl_residents_at(&gl->residents, indices[i])->page_count;
     bool again = true;
     while (again) {
         again = false;

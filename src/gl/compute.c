@@ -28,6 +28,8 @@ void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     ewa_gl_close(&old->device);
     ewa_gl_host_records_free(context, &old->host_records);
     ewa_buffer_free(context, &old->indices);
+    ewa_buffer_free(context, &old->segments);
+    ewa_buffer_free(context, &old->uses);
     ewa_buffer_free(context, &old->placements);
     ewa_buffer_free(context, &old->views);
     ewa_job_room_free(context, &old->room);
@@ -63,6 +65,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
     made->min_parts = (uint32_t)ewa_gl_tuning("parts", 1);
     made->residents.page_packets = (uint32_t)ewa_gl_tuning("page", 0);
+    made->residents.kept_bytes = ewa_gl_tuning("kept", 0);
     ewa_status status = ewa_gl_open(context, &made->device);
     if (status == EWA_OK) status = ewa_gl_try(made->device, &made->verdict);
     made->variants.arithmetic = made->verdict.arithmetic;
@@ -126,6 +129,52 @@ static ewa_status put_environment(ewa_gl_compute *gl, const ewa_environment *env
     return EWA_OK;
 }
 
+/// What a source has of its surfels' parts in this frame: bits of ewa_gl_part.
+static uint32_t parts_of(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_gl_resident *resident) {
+    const bool wanted[EWA_GL_PARTS] = {[EWA_GL_OPACITIES] = job->with_opacity,
+                                       [EWA_GL_CURVATURES] = source->packets.curvatures != NULL,
+                                       [EWA_GL_MATERIALS] = job->with_materials,
+                                       [EWA_GL_CLIP_MASKS] = source->packets.clip_masks != NULL};
+    uint32_t parts = 0;
+    for (int part = 0; part < EWA_GL_PARTS; part++) parts |= wanted[part] ? resident->parts & 1u << part : 0;
+    return parts;
+}
+
+/// Lists which packets of which pages the frame draws, page by page.
+static ewa_status put_segments(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    const ewa_gl_residents *residents = &gl->residents;
+    const uint32_t *indices = gl->indices.data;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->source_count; i++) count += ewa_gl_residents_at(residents, indices[i])->piece_count;
+    EWA_TRY(ewa_buffer_reserve(gl->context, &gl->segments, count, sizeof(ewa_gl_segment)));
+    EWA_TRY(ewa_buffer_reserve(gl->context, &gl->uses, residents->page_count, sizeof(ewa_gl_page_use)));
+    ewa_gl_segment *segments = gl->segments.data;
+    ewa_gl_page_use *uses = gl->uses.data;
+    gl->use_count = 0;
+    uint32_t at = 0;
+    for (uint32_t page = 0; page < residents->page_count; page++) {
+        ewa_gl_page_use use = {.page = page, .first = at};
+        for (uint32_t i = 0; i < job->source_count; i++) {
+            const ewa_gl_resident *resident = ewa_gl_residents_at(residents, indices[i]);
+            const ewa_gl_piece *pieces = resident->pieces.data;
+            for (uint32_t k = 0; k < resident->piece_count; k++) {
+                if (pieces[k].page != page) continue;
+                segments[at++] = (ewa_gl_segment){.first_group = use.group_count,
+                                                  .at = pieces[k].at,
+                                                  .count = pieces[k].count,
+                                                  .source = i,
+                                                  .first = pieces[k].first,
+                                                  .parts = parts_of(job, &job->sources[i], resident)};
+                use.group_count += (pieces[k].count + EWA_GL_GROUP_PACKETS - 1) / EWA_GL_GROUP_PACKETS;
+            }
+        }
+        use.end = at;
+        if (use.group_count) uses[gl->use_count++] = use;
+    }
+    return ewa_gl_buffer_put(gl->device, &gl->buffers[EWA_GL_SEGMENTS], "packets", segments,
+                             (uint64_t)count * sizeof *segments);
+}
+
 /// What all bands of the frame see: views, lights, materials, the environment, surfels.
 static ewa_status put_frame(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_context *context = gl->context;
@@ -141,6 +190,7 @@ static ewa_status put_frame(ewa_gl_compute *gl, const ewa_tile_job *job) {
         ewa_gl_placement_set(&placements[i], &job->sources[i].view, job->sources[i].packets.material);
         EWA_TRY(ewa_gl_residents_get(gl->device, &gl->residents, job->sources[i].surfels, &indices[i]));
     }
+    EWA_TRY(put_segments(gl, job));
     ewa_gl_resolve resolve;
     ewa_gl_resolve_set(&resolve, &job->resolve);
     memcpy(resolve.materials, job->materials, sizeof resolve.materials);

@@ -17,6 +17,7 @@ typedef enum ewa_gl_buffer_kind {
     EWA_GL_BAND,
     EWA_GL_VIEWS,
     EWA_GL_PLACEMENTS,
+    EWA_GL_SEGMENTS,
     EWA_GL_RESOLVE,
     EWA_GL_ENVIRONMENT,
     EWA_GL_COUNTS,
@@ -58,6 +59,11 @@ typedef struct ewa_gl_fit {
     uint64_t splat_count;
 } ewa_gl_fit;
 
+/// A page that a frame draws from: its segments [first, end), and how many groups of invocations cull them.
+typedef struct ewa_gl_page_use {
+    uint32_t page, first, end, group_count;
+} ewa_gl_page_use;
+
 /// What came of a band's frame.
 typedef struct ewa_gl_outcome {
     uint64_t broken, drawn; ///< pixels without a colour; records in tiles
@@ -78,6 +84,8 @@ typedef struct ewa_gl_compute {
     ewa_gl_host_records host_records;
     ewa_job_room room;
     ewa_buffer views, placements, indices; ///< of sources
+    ewa_buffer segments, uses;             ///< of the frame: ewa_gl_segment, ewa_gl_page_use
+    uint32_t use_count;
     uint64_t environment_serial;           ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
     double longest_s; ///< the longest stage of the frame before
     bool needs_host;  ///< the last band asked the host for something: the next is likely to

@@ -23,6 +23,24 @@ ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const ch
     return status;
 }
 
+ewa_status ewa_gl_buffer_grow(ewa_gl *device, ewa_gl_buffer *buffer, const char *what, uint64_t size_bytes) {
+    if (size_bytes <= buffer->size_bytes) return EWA_OK;
+    ewa_gl_buffer grown = {.usage = buffer->usage};
+    const ewa_status status = ewa_gl_buffer_reserve(device, &grown, what, size_bytes);
+    if (status != EWA_OK) {
+        ewa_gl_buffer_free(&grown);
+        return status;
+    }
+    if (buffer->size_bytes) {
+        glBindBuffer(GL_COPY_READ_BUFFER, buffer->name);
+        glBindBuffer(GL_COPY_WRITE_BUFFER, grown.name);
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, (GLsizeiptr)buffer->size_bytes);
+    }
+    ewa_gl_buffer_free(buffer);
+    *buffer = grown;
+    return EWA_OK;
+}
+
 void ewa_gl_buffer_write(ewa_gl *device, const ewa_gl_buffer *buffer, uint64_t at_bytes, const void *bytes,
                          uint64_t size_bytes) {
     if (!size_bytes) return;

@@ -19,6 +19,9 @@ typedef struct ewa_gl_buffer {
 ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const char *what,
                                  uint64_t size_bytes);
 
+/// The same, but what was there stays. Both are there for a while.
+ewa_status ewa_gl_buffer_grow(ewa_gl *device, ewa_gl_buffer *buffer, const char *what, uint64_t size_bytes);
+
 /// Sets bytes from `at_bytes` on, for which there is room.
 void ewa_gl_buffer_write(ewa_gl *device, const ewa_gl_buffer *buffer, uint64_t at_bytes, const void *bytes,
                          uint64_t size_bytes);

@@ -65,6 +65,14 @@ typedef struct ewa_gl_tally {
     uint32_t culled_groups, divided_groups, pad[2];
 } ewa_gl_tally;
 
+/// Packets of one source that lie side by side in a page, and whose surfels have `parts` (bits of ewa_gl_part). Culling has a
+/// group of invocations for each EWA_GL_GROUP_PACKETS, from `first_group` on.
+typedef struct ewa_gl_segment {
+    uint32_t first_group, at, count, source, first, parts, pad[2];
+} ewa_gl_segment;
+
+enum { EWA_GL_GROUP_PACKETS = 64 };
+
 /// Arguments of indirect dispatches, in the order in which they follow the counts.
 enum { EWA_GL_OF_LISTS, EWA_GL_OF_UNITS, EWA_GL_OF_PAGES, EWA_GL_ARGUMENT_BYTES = 16 };
 
@@ -74,7 +82,7 @@ typedef struct ewa_gl_host_request {
 } ewa_gl_host_request;
 
 /// A packet in a field, a tile of work, a unit of it, and a record in a list, as programs have them.
-enum { EWA_GL_PAIR_BYTES = 36, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16, EWA_GL_ENTRY_BYTES = 8 };
+enum { EWA_GL_PAIR_BYTES = 40, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16, EWA_GL_ENTRY_BYTES = 8 };
 
 /// ewa_clip.
 typedef struct ewa_gl_clip {

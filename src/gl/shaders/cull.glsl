@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Packets to the fields of a band: src/surface/pipeline_cull.h and pipeline_section.h, a packet of a page by each invocation.
+// Packets to the fields of a band: src/surface/pipeline_cull.h and pipeline_section.h, a packet of a segment by each invocation.
 
 layout(local_size_x = 64) in;
 
@@ -16,26 +16,18 @@ struct Placement {
 };
 
 layout(std430, binding = 12) readonly buffer PlacementBlock { Placement placements[]; };
-// Of the page (ewa_packet_bounds): x, y, z of centres, two words each; cones; then in halves of words radii, forms of colours, clip masks.
-layout(std430, binding = 2) readonly buffer BoundBlock { uint bounds[]; };
+// Of the page's packets (ewa_packet_bounds): x, y, z of the centre, two words each; cone; radius | form of colours << 16.
+struct Bound { uvec2 x, y, z; uint cone, radius; };
+layout(std430, binding = 2) readonly buffer BoundBlock { Bound bounds[]; };
+layout(std430, binding = 15) readonly buffer ClipMaskBlock { uint clip_masks[]; };
 
 layout(location = 0) uniform uint page;
-layout(location = 1) uniform uint packet_count;
-layout(location = 2) uniform uint source;
-layout(location = 3) uniform int clips_at; // in `bounds`, or -1
+layout(location = 1) uniform uint first_segment;
+layout(location = 2) uniform uint end_segment;
 
+uint source, segment; // of the group
 View view;
 uint view_flags;
-
-uint bound_half(uint at, uint packet) {
-    uint word = bounds[at + packet / 2u];
-    return (packet & 1u) != 0u ? word >> 16 : word & 0xffffu;
-}
-
-double center_of(uint axis, uint packet) {
-    uint at = 2u * (axis * packet_count + packet);
-    return packDouble2x32(uvec2(bounds[at], bounds[at + 1u]));
-}
 
 struct Outline { vec3 center; float radius, slope_x, slope_y, x, y, half_x, half_y; bool near; };
 
@@ -95,7 +87,7 @@ bool within_sides(float planes[4][3], Outline o) {
 
 bool back_facing(uint packet, Outline o) {
     const uint axis_mask = (1u << CONE_BITS) - 1u;
-    uint code = bounds[6u * packet_count + packet], sine_code = code >> 2 * CONE_BITS;
+    uint code = bounds[packet].cone, sine_code = code >> 2 * CONE_BITS;
     float u = wf_mul(float(int(code & axis_mask) - CONE_AXIS), UNIT_CONE);
     float v = wf_mul(float(int(code >> CONE_BITS & axis_mask) - CONE_AXIS), UNIT_CONE);
     float sine = wf_mul(float(sine_code), UNIT_SINE);
@@ -109,7 +101,7 @@ bool back_facing(uint packet, Outline o) {
 // What section planes leave of a packet and cut of that: lanes | cut lanes << 16; 0: nothing is left.
 uint section_lanes(uint index, uint packet, dvec3 center) {
     uint count = placements[index].section_count;
-    float radius = uintBitsToFloat(bound_half(7u * packet_count, packet) << RADIUS_SHIFT);
+    float radius = uintBitsToFloat((bounds[packet].radius & 0xffffu) << RADIUS_SHIFT);
     float distances[MAX_SECTIONS];
     bool crossed = false;
     for (uint k = 0u; k < count; k++) {
@@ -147,9 +139,10 @@ void write_pairs(uint packet, uint lanes, dvec3 center, Outline o, uvec2 first, 
     bool orthographic = has(view_flags, ORTHOGRAPHIC);
     Pair p;
     p.packet = packet;
-    p.form = bound_half(7u * packet_count + (packet_count + 1u) / 2u, packet) | placements[source].material << 16;
+    p.form = bounds[packet].radius >> 16 | placements[source].material << 16;
+    p.segment = segment;
     p.lanes = lanes;
-    if (clips_at >= 0) p.lanes |= bound_half(uint(clips_at), packet) << 16;
+    if (has(segments[segment].parts, CLIP_MASKS)) p.lanes |= clip_masks[packet] << 16;
     p.slope_x = o.near ? 0.0 : o.slope_x;
     p.slope_y = o.near ? 0.0 : o.slope_y;
     precise double across_x = center.x - double(p.slope_x), across_y = center.y - double(p.slope_y);
@@ -168,8 +161,8 @@ void write_pairs(uint packet, uint lanes, dvec3 center, Outline o, uvec2 first, 
 
 void cull(uint packet) {
     Outline o;
-    o.radius = wf_mul(uintBitsToFloat(bound_half(7u * packet_count, packet) << RADIUS_SHIFT), view.scale);
-    dvec3 own = dvec3(center_of(0u, packet), center_of(1u, packet), center_of(2u, packet)), center;
+    o.radius = wf_mul(uintBitsToFloat((bounds[packet].radius & 0xffffu) << RADIUS_SHIFT), view.scale);
+    dvec3 own = dvec3(packDouble2x32(bounds[packet].x), packDouble2x32(bounds[packet].y), packDouble2x32(bounds[packet].z)), center;
     for (int i = 0; i < 3; i++) {
         precise double x = own.x - placements[source].anchor[0], y = own.y - placements[source].anchor[1],
                        z = own.z - placements[source].anchor[2];
@@ -199,10 +192,21 @@ void cull(uint packet) {
 }
 
 void main() {
-    uint packet = group_number() * 64u + gl_LocalInvocationID.x;
+    // The last segment that begins no later than the group: a group has packets of one source.
+    uint group = group_number();
+    segment = first_segment;
+    for (uint end = end_segment; segment + 1u < end;) {
+        uint middle = (segment + end) / 2u;
+        if (segments[middle].first_group <= group)
+            segment = middle;
+        else
+            end = middle;
+    }
+    source = segments[segment].source;
     view = views[source];
     view_flags = view.flags;
-    if (packet < packet_count) cull(packet);
+    uint in_segment = (group - segments[segment].first_group) * 64u + gl_LocalInvocationID.x;
+    if (in_segment < segments[segment].count) cull(segments[segment].at + in_segment);
     // The last group of the page says how much set-up and lists have to do.
     memoryBarrierBuffer();
     barrier();

@@ -5,9 +5,15 @@
 
 layout(std430, binding = 1) readonly buffer PacketBlock { uint packets[]; };
 
+// Packets of one source that lie side by side in the page, and what their surfels have; src/gl/scene.h is the same in C.
+struct Segment { uint first_group, at, count, source, first, parts, pad0, pad1; };
+layout(std430, binding = 6) readonly buffer SegmentBlock { Segment segments[]; };
+
+const uint OPACITIES = 4u, CURVATURES = 8u, MATERIALS = 16u, CLIP_MASKS = 32u;
+
 // A packet in one field of the band: its number in its page; field, column | row << 16; form of colours | material << 16; lanes that
-// section planes leave | those with clip lines << 16; and its place (ewa_packet_places).
-struct Pair { uint packet, field, form, lanes; float slope_x, slope_y, rest_x, rest_y, depth; };
+// section planes leave | those with clip lines << 16; its segment; and its place (ewa_packet_places).
+struct Pair { uint packet, field, form, lanes, segment; float slope_x, slope_y, rest_x, rest_y, depth; };
 layout(std430, binding = 8) buffer PairBlock { Pair pairs[]; };
 
 const int PACKET_WORDS = 120;

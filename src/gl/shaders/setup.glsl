@@ -7,17 +7,16 @@
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 3) buffer TileBlock { Tile tiles[]; };
-layout(std430, binding = 4) readonly buffer ByteBlock { uint attributes[]; }; // of the page: opacities, then materials
+// Of the page, by [packet][lane]: halves of words, and bytes.
+layout(std430, binding = 4) readonly buffer OpacityBlock { uint opacities[]; };
+layout(std430, binding = 10) readonly buffer CurvatureBlock { uint curvatures[]; };
+layout(std430, binding = 14) readonly buffer MaterialBlock { uint materials[]; };
 layout(std430, binding = 5) writeonly buffer RecordBlock { Record records[]; };
 layout(std430, binding = 11) writeonly buffer RequestBlock { uvec4 requests[]; }; // surfel, source, field; near ones, then those with lines
 
 layout(location = 0) uniform uint page;
-layout(location = 1) uniform uint first_packet; // of the page, in its source
-layout(location = 2) uniform uint source;
-layout(location = 3) uniform int opacities_at; // words in `attributes`, or -1; as the next two
-layout(location = 4) uniform int curvatures_at;
-layout(location = 5) uniform int materials_at;
 
+Segment segment;
 View view;
 uint view_flags;
 
@@ -264,7 +263,7 @@ float whole_place(float center_px) {
 // How far the splat moves away from its contour (semantics.h, section 5): pixels, and what of the key that is.
 vec3 contour_way(uint surfel, float slope, bool clipped, out bool concave) {
     concave = false;
-    uint word = attributes[uint(curvatures_at) + surfel / 2u];
+    uint word = curvatures[surfel / 2u];
     float curvature = uintBitsToFloat((surfel & 1u) != 0u ? word & 0xffff0000u : word << 16);
     float bend = wf_mul(wf_abs(curvature), view.curvature_scale);
     if (!has(view_flags, ORTHOGRAPHIC)) bend = wf_mul(bend, t.z);
@@ -290,7 +289,7 @@ void count_tiles(uvec2 field, uint box) {
 // Asks the host for something of a surfel; returns where it will be.
 uint request(uint first, uint number, uint pair, uint lane) {
     if (number < request_capacity)
-        requests[first + number] = uvec4((first_packet + pairs[pair].packet) * 16u + lane, source, pairs[pair].field, 0u);
+        requests[first + number] = uvec4((segment.first + pairs[pair].packet - segment.at) * 16u + lane, segment.source, pairs[pair].field, 0u);
     return number;
 }
 
@@ -317,7 +316,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     float place_x = wf_add(wf_fma(t.dx, view.fx_px, t.base_x), c1_px), beyond = reach;
     float place_y = wf_add(wf_fma(t.dy, view.fy_px, t.base_y), c2_px);
     bool concave = false;
-    if (curvatures_at >= 0) {
+    if (has(segment.parts, CURVATURES)) {
         vec3 way = contour_way(pairs[pair].packet * 16u + lane, slope, clipped, concave);
         key = wf_add(key, way.z);
         beyond = wf_add(beyond, wf_abs(way.z));
@@ -363,15 +362,15 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     }
     bool is_back = 0.0 < t.facing;
     float opacity = t.peak;
-    if (opacities_at >= 0) {
-        uint index = pairs[pair].packet * 16u + lane, word = attributes[uint(opacities_at) + index / 2u];
+    if (has(segment.parts, OPACITIES)) {
+        uint index = pairs[pair].packet * 16u + lane, word = opacities[index / 2u];
         uint code = (index & 1u) != 0u ? word >> 16 : word & 0xffffu;
         opacity = wf_mul(t.peak, wf_mul(float(code), UNIT_U16));
     }
     uint material = pairs[pair].form >> 16 & 0xffu;
-    if (materials_at >= 0) {
+    if (has(segment.parts, MATERIALS)) {
         uint index = pairs[pair].packet * 16u + lane;
-        material = attributes[uint(materials_at) + index / 4u] >> (index & 3u) * 8u & 0xffu;
+        material = materials[index / 4u] >> (index & 3u) * 8u & 0xffu;
     }
     float color_units = wf_mul(opacity, view.color_scale);
     uint form = pairs[pair].form & 0xffffu;
@@ -400,7 +399,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     r.nz = wf_odd_product(facing_peak, t.n.z);
     r.peak = wf_odd(peak_units);
     r.opacity = wf_odd_product(opacity, view.sum_scale);
-    r.extra = material | source << 8;
+    r.extra = material | segment.source << 8;
     r.field = field.x | field.y << 16;
     r.clip = clipped ? request(request_capacity, atomicAdd(clip_count, 1u), pair, lane) : 0u;
     records[at] = r;
@@ -412,7 +411,8 @@ void main() {
     uint before = page == 0u ? 0u : arguments[OF_PAGES + page - 1u].w, pair = before + index / 16u;
     if (pair >= arguments[OF_PAGES + page].w) return;
     uint at = pair * 16u + lane;
-    view = views[source];
+    segment = segments[pairs[pair].segment];
+    view = views[segment.source];
     view_flags = view.flags;
     uint base = pairs[pair].packet * uint(PACKET_WORDS);
     uvec2 field = uvec2(pairs[pair].field & 0xffffu, pairs[pair].field >> 16);
