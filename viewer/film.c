@@ -69,7 +69,7 @@ static ewa_status make_way(viewer *v, uint32_t width_px, uint32_t height_px, ewa
     ewa_camera keys[EWA_MAX_KEYFRAMES];
     for (uint32_t i = 0; i < v->film.key_count; i++) {
         keys[i] = v->film.keys[i];
-        navigate_resize(&keys[i], width_px, height_px);
+        ewa_camera_resize(&keys[i], EWA_RESIZE_HEIGHT, width_px, height_px);
     }
     v->probe.message[0] = 0;
     return ewa_camera_path_create(v->probe.context, keys, v->film.key_count, false, way);
@@ -101,7 +101,7 @@ static bool go_to(viewer *v, const char *text) {
         return true;
     }
     ewa_camera to = v->film.keys[(uint32_t)at];
-    navigate_resize(&to, v->camera.width_px, v->camera.height_px);
+    ewa_camera_resize(&to, EWA_RESIZE_HEIGHT, v->camera.width_px, v->camera.height_px);
     v->film.at = at;
     viewer_go(v, &to);
     return true;

@@ -132,17 +132,6 @@ void navigate_center(ewa_camera *camera, const double point_world[3]) {
     camera->world_to_camera[7] += y - p[1];
 }
 
-void navigate_resize(ewa_camera *camera, uint32_t width_px, uint32_t height_px) {
-    const double ratio = (double)height_px / camera->height_px;
-    const double left = camera->cx_px - 0.5 * camera->width_px, low = camera->cy_px - 0.5 * camera->height_px;
-    camera->fx_px *= ratio;
-    camera->fy_px *= ratio;
-    camera->cx_px = 0.5 * width_px + left * ratio;
-    camera->cy_px = 0.5 * height_px + low * ratio;
-    camera->width_px = width_px;
-    camera->height_px = height_px;
-}
-
 void navigate_set_ortho(ewa_camera *camera, bool ortho, const double point_world[3], double fov_deg) {
     if (ortho == (camera->projection == EWA_ORTHOGRAPHIC)) return;
     const double depth = navigate_depth(camera, point_world);

@@ -41,9 +41,6 @@ void navigate_move(ewa_camera *camera, const double by[3]);
 /// Moves the camera across the picture so that a point comes into the middle of the picture, at its depth.
 void navigate_center(ewa_camera *camera, const double point_world[3]);
 
-/// Changes the size of the picture; what its height shows stays.
-void navigate_resize(ewa_camera *camera, uint32_t width_px, uint32_t height_px);
-
 /// Makes the camera orthographic or perspective (with `fov_deg` vertically) so that what is at a point keeps
 /// its size.
 void navigate_set_ortho(ewa_camera *camera, bool ortho, const double point_world[3], double fov_deg);

@@ -43,7 +43,7 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
     paint_scene scene;
     viewer_scene(v, &scene);
     ewa_camera camera = scene.camera;
-    navigate_resize(&camera, width_px, height_px);
+    ewa_camera_resize(&camera, EWA_RESIZE_HEIGHT, width_px, height_px);
     for (int c = 0; c < 4 && transparent; c++) scene.options.render.background[c] = 0;
     uint8_t *rgba8 = malloc(4 * (size_t)width_px * height_px);
     ewa_status status = rgba8 ? draw_scene(v, &scene, &camera, v->furniture.ink, rgba8) : EWA_ERROR_MEMORY;
@@ -126,7 +126,7 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
                     v->probe.message[0] ? v->probe.message : ewa_status_name(status));
         return false;
     }
-    navigate_resize(&camera, v->camera.width_px, v->camera.height_px);
+    ewa_camera_resize(&camera, EWA_RESIZE_HEIGHT, v->camera.width_px, v->camera.height_px);
     v->placed = true;
     v->animated = false;
     v->camera = camera;

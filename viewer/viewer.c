@@ -148,7 +148,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->up_world[2] = 1;
     v->reach_world = v->fly_speed = 1;
     if (!options->camera) navigate_move(&v->camera, (double[3]){0, 0, -3});
-    navigate_resize(&v->camera, pixels(v->width, v->scale), pixels(v->height, v->scale));
+    ewa_camera_resize(&v->camera, EWA_RESIZE_HEIGHT, pixels(v->width, v->scale), pixels(v->height, v->scale));
     v->revision = 1;
     v->state.panels = true;
     v->turns = malloc(sizeof *v->turns);
@@ -240,10 +240,10 @@ static void resize(viewer *v, const viewer_event *event) {
     v->width = event->x, v->height = event->y, v->scale = event->amount;
     const uint32_t width_px = pixels(v->width, v->scale), height_px = pixels(v->height, v->scale);
     if (width_px == v->camera.width_px && height_px == v->camera.height_px) return;
-    navigate_resize(&v->camera, width_px, height_px);
+    ewa_camera_resize(&v->camera, EWA_RESIZE_HEIGHT, width_px, height_px);
     if (v->animated) {
-        navigate_resize(&v->animation_from, width_px, height_px);
-        navigate_resize(&v->animation_to, width_px, height_px);
+        ewa_camera_resize(&v->animation_from, EWA_RESIZE_HEIGHT, width_px, height_px);
+        ewa_camera_resize(&v->animation_to, EWA_RESIZE_HEIGHT, width_px, height_px);
     }
     viewer_change(v);
 }

@@ -120,15 +120,7 @@ bool view_middle(cli_session *session, const view_arguments *arguments, const vi
 }
 
 void view_resize(ewa_camera *camera, const option_size *size) {
-    if (!size->given) return;
-    const double x = (double)size->width_px / camera->width_px,
-                 y = (double)size->height_px / camera->height_px;
-    camera->fx_px *= x;
-    camera->cx_px *= x;
-    camera->fy_px *= y;
-    camera->cy_px *= y;
-    camera->width_px = size->width_px;
-    camera->height_px = size->height_px;
+    if (size->given) ewa_camera_resize(camera, EWA_RESIZE_STRETCH, size->width_px, size->height_px);
 }
 
 /// Sets the picture's size and the projection that the options ask for.

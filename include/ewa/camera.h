@@ -55,6 +55,15 @@ EWA_API ewa_status ewa_camera_set_fov(ewa_camera *camera, double vertical_fov_de
 /// (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC when the scale is not finite.
 EWA_API ewa_status ewa_camera_set_ortho(ewa_camera *camera, double height_world);
 
+/// What a picture of another size shows of the one that a camera had.
+typedef enum ewa_resize {
+    EWA_RESIZE_STRETCH = 0, ///< the same, across and down scaled by factors of their own
+    EWA_RESIZE_HEIGHT = 1,  ///< the same from the upper edge to the lower one, at the sides more or less
+} ewa_resize;
+
+/// Gives the camera's picture another size, in pixels of at least 1; what is not in 1..65536 is left to ewa_camera_check().
+EWA_API void ewa_camera_resize(ewa_camera *camera, ewa_resize keeps, uint32_t width_px, uint32_t height_px);
+
 /// Returns the position of the eye (perspective) or of the camera plane's origin (orthographic) in the world.
 EWA_API void ewa_camera_eye(const ewa_camera *camera, double eye_world[3]);
 

@@ -144,6 +144,11 @@ class ewa_projection(IntEnum):
     EWA_ORTHOGRAPHIC = 1
 
 
+class ewa_resize(IntEnum):
+    EWA_RESIZE_STRETCH = 0
+    EWA_RESIZE_HEIGHT = 1
+
+
 class ewa_coloring_map(IntEnum):
     EWA_COLORING_AUTO = 0
     EWA_COLORING_VIRIDIS = 1
@@ -1926,6 +1931,7 @@ class Functions:
         self.ewa_camera_path_at: Callable[..., int] = bind("ewa_camera_path_at", c.c_int, c.c_void_p, c.c_double, c.POINTER(ewa_camera))
         self.ewa_camera_path_create: Callable[..., int] = bind("ewa_camera_path_create", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_bool, c.c_void_p)
         self.ewa_camera_path_destroy: Callable[..., None] = bind("ewa_camera_path_destroy", None, c.c_void_p)
+        self.ewa_camera_resize: Callable[..., None] = bind("ewa_camera_resize", None, c.POINTER(ewa_camera), c.c_int, c.c_uint32, c.c_uint32)
         self.ewa_camera_set_fov: Callable[..., int] = bind("ewa_camera_set_fov", c.c_int, c.POINTER(ewa_camera), c.c_double)
         self.ewa_camera_set_ortho: Callable[..., int] = bind("ewa_camera_set_ortho", c.c_int, c.POINTER(ewa_camera), c.c_double)
         self.ewa_attribute_read_f32: Callable[..., None] = bind("ewa_attribute_read_f32", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)

@@ -278,13 +278,7 @@ class Camera:
         ArgumentError
         """
         made = self._copy()
-        width, height = as_size((width, height))
-        x, y = width / made.width_px, height / made.height_px
-        made.fx_px *= x
-        made.cx_px *= x
-        made.fy_px *= y
-        made.cy_px *= y
-        made.width_px, made.height_px = width, height
+        lib.ewa_camera_resize(ctypes.byref(made), b.ewa_resize.EWA_RESIZE_STRETCH, *as_size((width, height)))
         return Camera._of(checked(made), self._lens)
 
     def save(self, path: PathLike) -> None:

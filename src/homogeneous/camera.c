@@ -213,6 +213,19 @@ ewa_status ewa_camera_set_ortho(ewa_camera *camera, double height_world) {
     return EWA_OK;
 }
 
+void ewa_camera_resize(ewa_camera *camera, ewa_resize keeps, uint32_t width_px, uint32_t height_px) {
+    if (!camera) return;
+    const double down = (double)height_px / camera->height_px,
+                 across = keeps == EWA_RESIZE_HEIGHT ? down : (double)width_px / camera->width_px;
+    camera->fx_px *= across;
+    camera->fy_px *= down;
+    // From the middle, so that a principal point that is there stays there to the last bit.
+    camera->cx_px = 0.5 * width_px + (camera->cx_px - 0.5 * camera->width_px) * across;
+    camera->cy_px = 0.5 * height_px + (camera->cy_px - 0.5 * camera->height_px) * down;
+    camera->width_px = width_px;
+    camera->height_px = height_px;
+}
+
 void ewa_camera_eye(const ewa_camera *camera, double eye_world[3]) {
     const double *m = camera->world_to_camera;
     const double square = (dot(&m[0], &m[0]) + dot(&m[4], &m[4]) + dot(&m[8], &m[8])) / 3;

@@ -387,13 +387,7 @@ static bool says_where(const ewa_view_options *options) {
 static void take_own(const ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera) {
     *camera = scene->camera;
     if (!options || !options->width_px || !options->height_px) return;
-    const double ratio = (double)options->height_px / camera->height_px;
-    camera->cx_px = 0.5 * options->width_px + (camera->cx_px - 0.5 * camera->width_px) * ratio;
-    camera->cy_px *= ratio;
-    camera->fx_px *= ratio;
-    camera->fy_px *= ratio;
-    camera->width_px = options->width_px;
-    camera->height_px = options->height_px;
+    ewa_camera_resize(camera, EWA_RESIZE_HEIGHT, options->width_px, options->height_px);
 }
 
 ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera,

@@ -220,6 +220,36 @@ TEST(test_frame_of_a_point_is_of_size_one) {
     assert_near(camera.height_px / camera.fy_px, 1, 1e-9);
 }
 
+TEST(test_resize_scales_pixels) {
+    check_random random = {6};
+    for (int round = 0; round < 200; round++) {
+        ewa_camera camera = check_camera(640, 480);
+        assert_int_equal(round % 2 ? ewa_camera_set_ortho(&camera, 4) : ewa_camera_set_fov(&camera, 40), EWA_OK);
+        camera.cx_px += check_uniform(&random, -100, 100);
+        camera.cy_px += check_uniform(&random, -100, 100);
+        camera.fx_px *= 1.25;
+        const double point[3] = {check_uniform(&random, -1, 1), check_uniform(&random, -1, 1), 3};
+        double old[2], now[2];
+        project(&camera, point, old);
+        const ewa_camera before = camera;
+        for (int keeps = EWA_RESIZE_STRETCH; keeps <= EWA_RESIZE_HEIGHT; keeps++) {
+            ewa_camera_resize(&camera, keeps, 1920, 960);
+            assert_int_equal(camera.width_px, 1920);
+            assert_int_equal(camera.height_px, 960);
+            project(&camera, point, now);
+            assert_near(now[1], 2 * old[1], 1e-9);
+            assert_near(now[0], keeps == EWA_RESIZE_STRETCH ? 3 * old[0] : 960 + 2 * (old[0] - 320), 1e-9);
+            ewa_camera_resize(&camera, keeps, 640, 480);
+            assert_near(camera.fx_px, before.fx_px, 1e-12 * before.fx_px);
+            assert_near(camera.cx_px, before.cx_px, 1e-9);
+        }
+    }
+    ewa_camera middle = default_camera(); // the middle stays the middle to the last bit
+    ewa_camera_resize(&middle, EWA_RESIZE_STRETCH, 641, 487);
+    assert_true(middle.cx_px == 320.5 && middle.cy_px == 243.5);
+    ewa_camera_resize(NULL, EWA_RESIZE_STRETCH, 1, 1);
+}
+
 TEST_LOGGED(test_check_names_the_member, 1) {
     const ewa_camera good = default_camera();
     ewa_camera camera = good;

@@ -171,24 +171,6 @@ TEST(centers_at_the_same_depth) {
     }
 }
 
-TEST(resize_keeps_what_the_height_shows) {
-    check_random random = {6};
-    for (int i = 0; i < TRIALS; i++) {
-        ewa_camera camera = random_camera(&random, i);
-        const ewa_camera before = camera;
-        double point[3], a[2], b[2], depth;
-        check_uniform3(&random, -1, 1, point);
-        navigate_project(&before, point, a, &depth);
-        navigate_resize(&camera, 1920, 960);
-        navigate_project(&camera, point, b, &depth);
-        assert_near(b[1] - 480, 2 * (a[1] - 240), 1e-6);
-        assert_near(b[0] - 960, 2 * (a[0] - 320), 1e-6);
-        navigate_resize(&camera, 640, 480);
-        assert_near(camera.fx_px, before.fx_px, 1e-9 * before.fx_px);
-        assert_near(camera.cx_px, before.cx_px, 1e-9 * 640);
-    }
-}
-
 TEST(ortho_and_back_keep_the_size_at_a_point) {
     check_random random = {7};
     for (int i = 0; i < TRIALS; i += 2) {
