@@ -291,42 +291,60 @@ TEST(test_shells) {
     assert_int_equal(view_of_shell(1, 1, wide, 1, EWA_UP_Z_SURVEYED), EWA_VIEW_FRONT);
 }
 
-/// The body of all turns holds every point in every turn, closely, with its disc.
+/// A vector whose axes are named anew, in a circle by `turns`.
+static void turn_axes(const double v[3], int turns, double turned[3]) {
+    for (int c = 0; c < 3; c++) turned[(c + turns) % 3] = v[c];
+}
+
+/// The body of all turns holds every point in every turn, closely, with its disc, whatever the axis.
 TEST(test_revolve) {
-    static const double axis[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
+    static const double up[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
     const disc discs[] = {
         {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
-    const double pivot[3] = {1, 1, 0.4}, reaches[] = {1, sqrt(13), sqrt(2)};
-    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, 3);
-    ewa_framing *framing = NULL, *solid = NULL;
-    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
-    for (size_t d = 0; d < 3; d++) {
-        assert_int_equal(ewa_framing_revolve(framing, pivot, axis, directions[d], &solid), EWA_OK);
+    const double middle[3] = {1, 1, 0.4}, reaches[] = {1, sqrt(13), sqrt(2)};
+    for (int turns = 0; turns < 3; turns++) {
+        disc turned[3];
         for (int i = 0; i < 3; i++) {
-            // Of the corners about as high: how far they reach each way, and with which rim.
-            double minimum = INFINITY, greatest = 0, rim = INFINITY, below = INFINITY, above = INFINITY;
-            for (int k = 0; k < 1000; k++) {
-                const double x = cos(k * 0.00628318530717959), y = sin(k * 0.00628318530717959);
-                double reach = 0;
-                for (size_t p = 0; p < solid->count; p++) {
-                    const double *o = solid->offsets[p], up = o[2] + pivot[2] - discs[i].place[2];
-                    if (fabs(up) > 0.02) continue;
-                    reach = fmax(reach, x * o[0] + y * o[1]);
-                    rim = fmin(rim, solid->rims_world[p]);
-                    below = fmin(below, up <= 1e-12 ? -up : INFINITY);
-                    above = fmin(above, up >= -1e-12 ? up : INFINITY);
-                }
-                minimum = fmin(minimum, reach);
-                greatest = fmax(greatest, reach);
-            }
-            assert_float_equal(rim, discs[i].radius, 1e-6);
-            assert_true(minimum > reaches[i] * (1 - 1e-9) && greatest < 1.0013 * reaches[i]);
-            // The slice begins below the point and ends above it.
-            assert_true(below < 0.0118 && above < 0.0118);
+            turned[i] = discs[i];
+            turn_axes(discs[i].place, turns, turned[i].place);
+            turn_axes(discs[i].normal, turns, turned[i].normal);
         }
-        ewa_framing_destroy(&solid);
+        double pivot[3], axis[3], direction[3];
+        turn_axes(middle, turns, pivot);
+        turn_axes(up, turns, axis);
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(turned, 3);
+        OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
+        assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+        for (size_t d = 0; d < 3; d++) {
+            OWNED(ewa_framing_destroy) ewa_framing *solid = NULL;
+            turn_axes(directions[d], turns, direction);
+            assert_int_equal(ewa_framing_revolve(framing, pivot, axis, direction, &solid), EWA_OK);
+            for (int i = 0; i < 3; i++) {
+                // Of the corners about as high: how far they reach each way, and with which rim.
+                double minimum = INFINITY, greatest = 0, rim = INFINITY, below = INFINITY, above = INFINITY;
+                for (int k = 0; k < 1000; k++) {
+                    const double x = cos(k * 0.00628318530717959), y = sin(k * 0.00628318530717959);
+                    double reach = 0;
+                    for (size_t p = 0; p < solid->count; p++) {
+                        double o[3];
+                        turn_axes(solid->offsets[p], 3 - turns, o);
+                        const double height = o[2] + middle[2] - discs[i].place[2];
+                        if (fabs(height) > 0.02) continue;
+                        reach = fmax(reach, x * o[0] + y * o[1]);
+                        rim = fmin(rim, solid->rims_world[p]);
+                        below = fmin(below, height <= 1e-12 ? -height : INFINITY);
+                        above = fmin(above, height >= -1e-12 ? height : INFINITY);
+                    }
+                    minimum = fmin(minimum, reach);
+                    greatest = fmax(greatest, reach);
+                }
+                assert_float_equal(rim, discs[i].radius, 1e-6);
+                assert_true(minimum > reaches[i] * (1 - 1e-9) && greatest < 1.0013 * reaches[i]);
+                // The slice begins below the point and ends above it.
+                assert_true(below < 0.0118 && above < 0.0118);
+            }
+        }
     }
-    ewa_framing_destroy(&framing);
 }
 
 /// What a caller may know of a framing, which outlives its cloud.

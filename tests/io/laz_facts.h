@@ -16,6 +16,25 @@ static inline uint8_t laz_fact_byte(uint32_t i, uint32_t j) {
     return (uint8_t)(j * 37 + i / (1 + j % 7) * (j % 4) + (i * i >> j % 9) * (j % 3));
 }
 
+/// Byte j of record i of long chunks, in which every model meets every context.
+static inline uint8_t laz_fact_mixed_byte(uint32_t i, uint32_t j) {
+    uint32_t x = i * 2654435761u ^ j * 2654435769u;
+    x = (x ^ x >> 15) * 2246822507u;
+    return (uint8_t)(x ^ x >> 13);
+}
+
+enum { LAZ_FACT_LONG_RECORDS = 5000 };
+
+/// Long chunks as laz-rs 0.8.2 writes them: their lengths and 64-bit FNV-1a sums.
+static const struct {
+    uint8_t point_format;
+    uint32_t size_bytes;
+    uint64_t sum;
+} laz_fact_long_chunks[] = {
+    {0, 100762, 0x1bc41efd11aa4c90u}, {1, 140880, 0x219de8a8e6fa5359u}, {3, 171377, 0xad832128c42fb3bu},
+    {6, 152384, 0x13fdf2ca68abcc77u}, {7, 183371, 0xcd553767174aba30u}, {8, 193557, 0xa9429cb557a2c24eu},
+};
+
 static const uint8_t laz_fact_chunk_0[] = {
     0,   37,  74,  111, 148, 185, 222, 3,   40,  77,  114, 151, 188, 225, 6,   43,  80,  117, 154, 191,
     192, 34,  173, 231, 204, 40,  44,  154, 255, 56,  140, 228, 29,  61,  155, 59,  106, 58,  21,  159,

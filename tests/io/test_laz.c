@@ -102,6 +102,24 @@ TEST(test_facts) {
     }
 }
 
+TEST(test_long_facts) {
+    for (size_t i = 0; i < sizeof laz_fact_long_chunks / sizeof laz_fact_long_chunks[0]; i++) {
+        const uint8_t format = laz_fact_long_chunks[i].point_format;
+        const uint32_t record_bytes = CORE_BYTES[format];
+        OWNED(chunk_free) chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_CONSTANT, format, LAZ_FACT_LONG_RECORDS);
+        for (uint32_t k = 0; k < LAZ_FACT_LONG_RECORDS; k++)
+            for (uint32_t j = 0; j < record_bytes; j++) c.records[k * record_bytes + j] = laz_fact_mixed_byte(k, j);
+        c.size_bytes = 0;
+        assert_int_equal(
+            ewa_laz_encode(context, &c.plan, c.records, c.point_count, &c.bytes, &c.size_bytes, &c.encoder), EWA_OK);
+        uint64_t sum = 0xcbf29ce484222325u;
+        for (size_t b = 0; b < c.size_bytes; b++) sum = (sum ^ ((const uint8_t *)c.bytes.data)[b]) * 0x100000001b3u;
+        assert_int_equal(c.size_bytes, laz_fact_long_chunks[i].size_bytes);
+        assert_true(sum == laz_fact_long_chunks[i].sum);
+        check_back(&c);
+    }
+}
+
 TEST(test_round_trips) {
     static const uint32_t COUNTS[] = {1, 2, 3, 1000};
     for (uint8_t format = 0; format < 11; format++)

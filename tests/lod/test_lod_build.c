@@ -178,6 +178,33 @@ TEST_WITHIN(test_curvatures, enter, NULL) {
     }
 }
 
+/// Surfaces end in an octree where they end in its file: along the rim, and nowhere else.
+TEST_WITHIN(test_borders, enter, NULL) {
+    static const char *const names[] = {"a.las"};
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    lod_save(lod_ground(context, 0, 50000, (lod_look){.colors = true}), names[0]);
+    assert_int_equal(lod_build(context, names, 1, "o.copc.laz", NULL, NULL), EWA_OK);
+    OWNED(ewa_cloud_destroy) ewa_cloud *output = lod_load(context, "o.copc.laz");
+    const ewa_attribute *position = ewa_cloud_find(output, EWA_POSITION), *border = ewa_cloud_find(output, EWA_BORDER);
+    assert_true(border && border->type == EWA_F32 && border->component_count == 3);
+    double origin[3];
+    ewa_cloud_origin(output, origin);
+    int rim = 0, inside = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(output); i++) {
+        double p[3], to[3];
+        ewa_attribute_read_f64(position, i, 1, p);
+        ewa_attribute_read_f64(border, i, 1, to);
+        if (to[0] == 0 && to[1] == 0 && to[2] == 0) continue;
+        const double x = p[0] + origin[0], y = p[1] + origin[1];
+        const bool is_rim = fmax(fabs(x), fabs(y)) > 0.95;
+        rim += is_rim && x * to[0] + y * to[1] > 0; // it points outward
+        inside += !is_rim;
+    }
+    print_message("%d borders along the rim, %d inside\n", rim, inside);
+    assert_true(rim > 500 && inside == 0);
+    assert_int_equal(lod_clear(), 2);
+}
+
 TEST_WITHIN(test_without_colors, enter, NULL) {
     static const char *const names[] = {"a.ply"};
     OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
