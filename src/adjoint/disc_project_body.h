@@ -107,17 +107,16 @@ LANE void make_ellipse(const ewa_disc_view *view, disc_splat *to) {
 LANE void move(const ewa_disc_view *view, double curvature, disc_splat *to) {
     const ewa_vec3 p = to->center, n = to->normal;
     const double depth = view->flat ? 1 : p.z, sine = view->flat ? n.z : vec3_dot(n, p) / p.z;
-    const double bend = 2 * size_of(curvature) / view->scale * depth / view->fx_px;
+    const double bend = 2 * larger(curvature, 0) / view->scale * depth / view->fx_px;
     const double sigma_px = view->fx_px * larger(length_of(to->u), length_of(to->v)) / depth;
     const double wide_px = EWA_CONTOUR_WIDTH * sigma_px * sine;
     const double across = __builtin_sqrt(view->prefilter_px * view->prefilter_px + wide_px * wide_px);
     const double reach = smaller(EWA_CONTOUR_REACH * across * bend, view->contour_sine2);
     const double x = -n.x / view->fx_px, y = -n.y / view->fy_px, length = __builtin_sqrt(x * x + y * y);
-    const bool moves = (curvature != 0) & (sine * sine < reach) & (length > 0);
-    const bool turns_away = (curvature > 0) != to->is_back;
-    const double inward = 1 - sine * sine / reach, signed_shift = turns_away ? view->contour_shift : -view->contour_shift;
+    const bool moves = (curvature > 0) & (sine * sine < reach) & (length > 0);
+    const double inward = 1 - sine * sine / reach, signed_shift = to->is_back ? -view->contour_shift : view->contour_shift;
     const double way = signed_shift * across * inward / length;
-    to->concave = moves & !turns_away & (inward > view->concave_from);
+    to->concave = moves & to->is_back & (inward > view->concave_from);
     to->moves = moves;
     to->moved_x = moves ? way * x : 0, to->moved_y = moves ? way * y : 0;
     const double wider_x = __builtin_ceil(size_of(to->moved_x)), wider_y = __builtin_ceil(size_of(to->moved_y));

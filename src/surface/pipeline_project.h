@@ -358,7 +358,7 @@ static ALWAYS_INLINE bool find_contour_way(const ewa_view *view, const uint16_t 
                                            wm clipped, contour_way *way) {
     const wf one = wf_set(1), zero = wf_set(0);
     const wf curvature = wf_of_bits(wi_shl(wi_load_u16(curvatures), 16));
-    wf bend = wf_mul(wf_abs(curvature), wf_set(view->curvature_scale));
+    wf bend = wf_mul(wf_max(curvature, zero), wf_set(view->curvature_scale));
     if (!view->orthographic) bend = wf_mul(bend, t->z);
     bend = wf_min(bend, wf_set(1e30f));
     const wf sine2 = wf_mul(t->facing, t->facing);
@@ -371,8 +371,7 @@ static ALWAYS_INLINE bool find_contour_way(const ewa_view *view, const uint16_t 
     const wf share = wf_sub(one, wf_div(sine2, wf_select(near, reach, one)));
     const wf length = wf_mul(wf_mul(across, wf_set(view->contour_shift)), share);
     // Up the gradient where the side that is seen turns away, as on the near half of a sphere.
-    const wf seen = wf_select(wf_lt(t->facing, zero), curvature, wf_negate(curvature));
-    const wm turns_away = wf_lt(zero, seen);
+    const wm turns_away = wf_lt(t->facing, zero);
     const wf along = wf_div(wf_select(turns_away, length, wf_negate(length)), wf_select(near, slope, one));
     way->concave = wm_and(wm_and(near, wm_not(turns_away)), wf_lt(wf_set((float)EWA_CONTOUR_CONCAVE), share));
     way->x = wf_keep(near, wf_mul(t->key_x, along)), way->y = wf_keep(near, wf_mul(t->key_y, along));

@@ -61,18 +61,19 @@
 // m.(q - p) + a >= 0. Of all lines, the two of clip_mode 1 taken for one, the smallest share counts. There are no
 // more than EWA_CLIP_LINES: the surfel's own, then those of the planes of smallest a.
 //
-// Contours: the splat of a surfel of curvature C ("signed_curvature") without clip lines, neither near nor of one's own
+// Contours: the splat of a surfel of curvature C > 0 ("signed_curvature") without clip lines, neither near nor of one's own
 // size on the screen, moves away from its contour. s is the sine of the angle between plane and ray (n.p / pz,
-// orthographic nz), b = 2 |C| pz / fx (orthographic: without pz): s^2 / b is how many pixels before the contour the
+// orthographic nz), b = 2 C pz / fx (orthographic: without pz): s^2 / b is how many pixels before the contour the
 // centre is seen. E^2 = h^2 + (EWA_CONTOUR_WIDTH s_px s)^2, s_px the longer axis over pz in pixels, is the splat's size
 // across it, and
 //   c E w,    w = max(0, 1 - s^2 / min(EWA_CONTOUR_REACH E b, S)),    S as ewa_contour_sine2() has it
-// the way: up the key's gradient where C n.p < 0, for n as the surfel has it, else down. Its plane of keys stays
+// the way: up the key's gradient where n.p < 0, for n as the surfel has it, else down. Its plane of keys stays
 // where it is. By S it stays within the picture of a sphere around its disc, but for c h. c is EWA_CONTOUR_SHIFT
 // times the x at which the normal distribution below -x is tau / 2 with EWA_CULL_BACK, else tau (1 - sqrt(1/2)), where
 // what two layers cover is a half; 0 without edge antialiasing, with one pass, for points, and with the raycast kernel
-// in perspective. With C n.p > 0 and w > EWA_CONTOUR_CONCAVE it is the far side of what ends there: where nothing is
-// transparent it is in no layer behind the first.
+// in perspective. With n.p > 0 and w > EWA_CONTOUR_CONCAVE it is the far side of what ends there: where nothing is
+// transparent it is in no layer behind the first. With C < 0 none moves: contours of surfaces that bend towards their
+// normals' side, as of the valley behind a ridge, are hidden, and where ridge and valley meet nothing ends.
 //
 // ---- Section 6: visibility and accumulation
 //

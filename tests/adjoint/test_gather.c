@@ -98,7 +98,9 @@ TEST(test_transpose) {
         }
         print_message("%#x: %.9g and %.9g, %.2g of the sizes apart\n", KINDS[k], loss(&w), backward,
                       fabs(loss(&w) - backward) / size);
-        assert_true(fabs(loss(&w) - backward) <= (KINDS[k] & ADJOINT_NEAR ? 5e-6 : 1e-6) * size);
+        // Pictures of transparent surfaces are rounded once for each of these.
+        const double allowed = KINDS[k] & ADJOINT_NEAR ? 5e-6 : KINDS[k] & ADJOINT_TRANSPARENT ? 2e-6 : 1e-6;
+        assert_true(fabs(loss(&w) - backward) <= allowed * size);
     }
 }
 

@@ -50,6 +50,27 @@ static bool hits_plane(const tracer *t, const double ray[3]) {
     return t->shape == OUTLINE_DISC ? x * x + y * y < 1 : fmax(fabs(x), fabs(y)) < 1;
 }
 
+static double hill_height(double x, double y) { return sin(4 * x) * cos(3 * y) / 4; }
+
+/// Steps through the box of the hills; what a step passes by is 0.02 px high.
+static bool hits_hills(const double eye[3], const double ray[3]) {
+    static const double half[3] = {1, 1, 0.26}, step = 0.02;
+    double from = 0, to = INFINITY;
+    for (int c = 0; c < 3; c++) {
+        const double a = (-half[c] - eye[c]) / ray[c], b = (half[c] - eye[c]) / ray[c];
+        from = fmax(from, fmin(a, b)), to = fmin(to, fmax(a, b));
+    }
+    double before = 0;
+    for (double t = from; from < to; t = fmin(t + step, to)) {
+        const double x = eye[0] + t * ray[0], y = eye[1] + t * ray[1];
+        const double above = eye[2] + t * ray[2] - hill_height(x, y);
+        if (above * before < 0) return true;
+        if (t >= to) return false;
+        before = above;
+    }
+    return false;
+}
+
 static bool hits(const tracer *t, double x_px, double y_px) {
     const ewa_camera *camera = t->camera;
     const double x = (x_px - camera->cx_px) / camera->fx_px, y = (y_px - camera->cy_px) / camera->fy_px;
@@ -57,6 +78,7 @@ static bool hits(const tracer *t, double x_px, double y_px) {
     double ray[3];
     for (int c = 0; c < 3; c++) ray[c] = (m[c] * x + m[4 + c] * y + m[8 + c]) / length;
     if (t->shape == OUTLINE_SPHERE) return hits_sphere(t->eye, ray);
+    if (t->shape == OUTLINE_HILLS) return hits_hills(t->eye, ray);
     return t->shape == OUTLINE_TORUS ? hits_torus(t->eye, ray) : hits_plane(t, ray);
 }
 
@@ -124,6 +146,12 @@ outline_errors outline_compare(const outline_truth *truth, const float *alpha, i
     return found;
 }
 
+/// The numbers of the plastic ratio strew evenly.
+static void place_on_hills(uint64_t index, float p[3]) {
+    const double x = 2 * fmod(0.7548776662466927 * (double)index, 1) - 1, y = 2 * fmod(0.5698402909980532 * (double)index, 1) - 1;
+    p[0] = (float)x, p[1] = (float)y, p[2] = (float)hill_height(x, y);
+}
+
 static void random_place(check_random *random, outline_shape shape, float p[3]) {
     const double a = check_uniform(random, -1, 1), b = check_uniform(random, 0, 2 * PI);
     if (shape == OUTLINE_SPHERE) {
@@ -149,6 +177,10 @@ ewa_cloud *outline_points(ewa_context *context, outline_shape shape, uint64_t po
     ewa_cloud *cloud = check_cloud_of(context, point_count);
     float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     check_random random = {17};
-    for (uint64_t i = 0; i < point_count; i++) random_place(&random, shape, position + 3 * i);
+    for (uint64_t i = 0; i < point_count; i++)
+        if (shape == OUTLINE_HILLS)
+            place_on_hills(i, position + 3 * i);
+        else
+            random_place(&random, shape, position + 3 * i);
     return cloud;
 }

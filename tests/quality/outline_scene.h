@@ -17,6 +17,7 @@ typedef enum outline_shape {
     OUTLINE_TORUS,  ///< around z: tubes of radius 0.3 around a circle of radius 0.7
     OUTLINE_DISC,   ///< z = 0, of radius 1
     OUTLINE_SQUARE, ///< z = 0, from -1 to 1
+    OUTLINE_HILLS,  ///< z = sin(4x) cos(3y) / 4, from -1 to 1
 } outline_shape;
 
 /// Share of each pixel that the shape covers.
@@ -42,7 +43,7 @@ void outline_trace(ewa_context *context, outline_shape shape, const ewa_camera *
 /// `alpha` has `stride` floats from pixel to pixel.
 outline_errors outline_compare(const outline_truth *truth, const float *alpha, int stride);
 
-/// Random points on the shape, evenly strewn, with nothing but their places. The caller owns the cloud.
+/// Random points on the shape, evenly strewn, those of hills without voids, with nothing but their places. The caller owns the cloud.
 ewa_cloud *outline_points(ewa_context *context, outline_shape shape, uint64_t point_count);
 
 #endif

@@ -275,6 +275,18 @@ TEST_ON(test_flat_angles, 0) {
     }
 }
 
+/// Ridges whose far side is just hidden, and where they end, let nothing through.
+TEST_ON(test_ridges, 0) {
+    for (int i = 0; i < 6; i++) {
+        const double around = i * 3.141592653589793 / 3;
+        const double eye[3] = {2.8 * sin(around), -2.8 * cos(around), 1.6};
+        char name[64];
+        snprintf(name, sizeof name, "hills from %d degrees", 60 * i);
+        const outline_errors found = measure(context, name, OUTLINE_HILLS, eye, estimated(context, OUTLINE_HILLS, 200000));
+        assert_true(found.open < 2e-3 && found.deepest < 0.2);
+    }
+}
+
 /// A square of points whose normals are noisy, or point to either side at random.
 static ewa_cloud *doubtful_square(ewa_context *context, bool noisy) {
     enum { POINTS = 20000 };

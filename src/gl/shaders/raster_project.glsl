@@ -193,11 +193,11 @@ vec2 contour_way(bool clipped, out bool concave) {
     concave = false;
     float steepness = length(key_slope), sine2 = facing * facing, size = CONTOUR_WIDTH * major * zoomed.x;
     float across = sqrt(size * size * sine2 + kernel.z);
-    float bend = min(abs(curvature) * contour.z * (has(ORTHOGRAPHIC) ? 1.0 : z), 1e30);
+    float bend = min(max(curvature, 0.0) * contour.z * (has(ORTHOGRAPHIC) ? 1.0 : z), 1e30);
     float reach = min(across * CONTOUR_REACH * bend, contour.y);
     if (clipped || !(sine2 < reach) || !(0.0 < steepness)) return vec2(0.0);
     float share = 1.0 - sine2 / reach, way = across * contour.x * share / steepness;
-    bool turns_away = (facing < 0.0) == (0.0 < curvature);
+    bool turns_away = facing < 0.0;
     concave = !turns_away && CONTOUR_CONCAVE < share;
     return key_slope * (turns_away ? way : -way);
 }

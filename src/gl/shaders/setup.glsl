@@ -265,7 +265,7 @@ vec3 contour_way(uint surfel, float slope, bool clipped, out bool concave) {
     concave = false;
     uint word = curvatures[surfel / 2u];
     float curvature = uintBitsToFloat((surfel & 1u) != 0u ? word & 0xffff0000u : word << 16);
-    float bend = wf_mul(wf_abs(curvature), view.curvature_scale);
+    float bend = wf_mul(wf_max(curvature, 0.0), view.curvature_scale);
     if (!has(view_flags, ORTHOGRAPHIC)) bend = wf_mul(bend, t.z);
     bend = wf_min(bend, 1e30);
     float sine2 = wf_mul(t.facing, t.facing), size = wf_mul(t.major, wf_mul(CONTOUR_WIDTH, view.fx_zoomed));
@@ -273,7 +273,7 @@ vec3 contour_way(uint surfel, float slope, bool clipped, out bool concave) {
     float reach = wf_min(wf_mul(wf_mul(across, bend), CONTOUR_REACH), view.contour_sine2);
     if (clipped || !(sine2 < reach) || !(0.0 < slope)) return vec3(0.0);
     float share = wf_sub(1.0, wf_div(sine2, reach)), way = wf_mul(wf_mul(across, view.contour_shift), share);
-    bool turns_away = 0.0 < (t.facing < 0.0 ? curvature : wf_negate(curvature));
+    bool turns_away = t.facing < 0.0;
     concave = !turns_away && CONTOUR_CONCAVE < share && !has(view_flags, SEE_THROUGH);
     float along = wf_div(turns_away ? way : wf_negate(way), slope);
     return vec3(wf_mul(t.key_x, along), wf_mul(t.key_y, along), wf_mul(wf_mul(slope, slope), along));
