@@ -69,9 +69,17 @@ compute() {
             value=$((value + 1))
             echo "#define $constant $value.5"
         done
-        for piece in wide band "$@"; do cat "$room/shaders/$piece.glsl"; done
+        for piece in wide band "$@"; do sed "$edit" "$room/shaders/$piece.glsl"; done
     } >"$work/program.comp"
     count comp "$name"
+}
+
+# compute_more EDIT NAME: batches of visibility, edited.
+compute_more() {
+    before=$edit
+    edit="$edit; $1"
+    compute "$2" "$own PASS=1" scene splat masks passes
+    edit=$before
 }
 
 vertex="scene project payload"
@@ -112,10 +120,18 @@ for arithmetic in native emulated; do
     compute "culling, $arithmetic" "$own PASS=0" scene packet cull
     compute "set-up, $arithmetic" "$own PASS=0" scene packet setup
     compute "lists, $arithmetic" "$own PASS=0" scene fill
-    compute "visibility, $arithmetic" "$own PASS=1" scene splat passes
-    compute "accumulation, $arithmetic" "$own PASS=2" scene splat sums passes
+    # What is done for a splat of a tile, without pixels; then with a row of its mask more, and with a bit of a row more.
+    edit='s/next_splat(word, bits, slot);) /false;) /'
+    compute "batches of visibility, $arithmetic" "$own PASS=1" scene splat masks passes
+    compute "batches of accumulation, $arithmetic" "$own PASS=2" scene splat masks sums passes
+    row='row_mask(r, from_center.x, from_center.y + float(y)'
+    compute_more "s/$row)/($row) \\& $row + 1.0))/" "a row more, $arithmetic"
+    compute_more 's/\(atomicOr(reached.*\);$/{ \1; bits \&= bits - 1u; \1; }/' "a bit more, $arithmetic"
+    edit=
+    compute "visibility, $arithmetic" "$own PASS=1" scene splat masks passes
+    compute "accumulation, $arithmetic" "$own PASS=2" scene splat masks sums passes
     compute "first surface, $arithmetic" "$own PASS=3" sums surface
-    compute "edges, $arithmetic" "$own PASS=4" scene splat sums passes surface edges
+    compute "edges, $arithmetic" "$own PASS=4" scene splat masks sums passes surface edges
     compute "picture, $arithmetic" "$own PASS=5" sums codes surface
     compute "eye-dome lighting, $arithmetic" "$own PASS=6" codes eye_dome
 done

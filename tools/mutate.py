@@ -117,7 +117,7 @@ NEAR = [
     ("src/photos", ["photos"]),
     ("src/framing", ["framing", "upright", "upright_bodies", "cli_places", "cli_render"]),
     ("src/furniture", ["furniture", "shapes", "text_drawing", "decimal", "cli_furniture"]),
-    ("src/gl", ["gpu_bytes", "gpu_raster", "gpu_device", "gpu_fallback"]),
+    ("src/gl", ["gpu_frame", "gpu_masks", "gpu_sources", "gpu_bytes", "gpu_raster", "gpu_device", "gpu_fallback"]),
     ("src/tiling", ["bin", "render", "small"]),
     ("src/base/platform", ["referenced_file", "file"]), ("src/base", ["base", "option_tables", "bin"]),
     ("src/volume/gaussian", ["gaussian_render", "gaussian_files", "gaussian_levels", "mixture", "planes"]),

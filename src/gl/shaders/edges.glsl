@@ -26,23 +26,26 @@ float cut_alpha(Surface s, float alpha) {
     return wf_fma(related, wf_sub(0.0 < along ? hidden : uncut, over), over);
 }
 
-// Gathers the next surface of the pixel; returns its key.
-float gather(Tile tile, uvec2 in_field, float beyond, bool merged) {
+// Gathers the next surface of the pixel, which is open or not; returns its key. All of the group come here together.
+float gather(Tile tile, uvec2 in_field, bool open, float beyond, bool merged) {
     float largest = -INF;
     uint first = tile.next - tile.count;
     if (!merged) {
-        find_nearest(first, tile.next, false, in_field, beyond, largest);
+        start_lists(open, -INF, beyond);
+        find_nearest(first, tile.next, in_field, open, beyond, -INF, largest);
 #if WITH_NEARS
-        find_nearest(tile.first_near, tile.end_near, true, in_field, beyond, largest);
+        if (open) find_near(tile.first_near, tile.end_near, in_field, beyond, largest);
 #endif
-        if (largest == -INF) return largest;
     }
+    bool found = open && (merged || -INF < largest);
     float bound = merged ? MIN_KEY_OF_ALL : largest;
+    start_lists(found, bound, beyond);
+    if (nobody_looks()) return largest;
     for (uint i = first; i < tile.next; i += unit_splats)
-        add_splats(i, min(i + unit_splats, tile.next), false, in_field, beyond, bound);
+        add_splats(i, min(i + unit_splats, tile.next), in_field, beyond, bound);
 #if WITH_NEARS
-    for (uint i = tile.first_near; i < tile.end_near; i += unit_splats)
-        add_splats(i, min(i + unit_splats, tile.end_near), true, in_field, beyond, bound);
+    for (uint i = tile.first_near; found && i < tile.end_near; i += unit_splats)
+        add_nears(i, min(i + unit_splats, tile.end_near), in_field, beyond, bound);
 #endif
     return largest;
 }
@@ -65,7 +68,7 @@ void main() {
         if (gl_LocalInvocationIndex < uint(TILE_PX / 4 * TILE_PX / 4)) cut_blocks[gl_LocalInvocationIndex] = 0u;
 #endif
         barrier();
-        float key = beyond == -INF ? -INF : gather(tile, in_picture & 127u, beyond, merged);
+        float key = gather(tile, in_picture & 127u, -INF < beyond, beyond, merged);
         bool block_is_cut = false;
 #if WITH_CLIPS
         barrier();

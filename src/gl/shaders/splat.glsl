@@ -40,11 +40,6 @@ float bound_of(Record r, float key, bool exact) {
     return wf_fma(r.bound, key, r.bound_x);
 }
 
-bool in_box(uint box, uvec2 block) {
-    uvec2 first = uvec2(box & 0x3fu, box >> 8 & 0x3fu), size = uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu);
-    return all(lessThan(block - first, size)); // unsigned: what is before the first is large
-}
-
 Sample sample_splat(Record r, vec2 at, View view) {
     Sample s;
     s.gain = s.share = 1.0;
