@@ -5,7 +5,7 @@
 if(NOT EWA_HAS_GL)
   return()
 endif()
-foreach(name band codes cull divide edges eye_dome fill masks packet passes raster_cover raster_lines raster_near raster_payload raster_project raster_scene
+foreach(name average band codes cull divide edges eye_dome fill masks packet passes raster_cover raster_lines raster_near raster_payload raster_project raster_scene
     raster_splat raster_surface raster_vertex scene selftest setup splat sums surface wide)
   set(source ${PROJECT_SOURCE_DIR}/src/gl/shaders/${name}.glsl)
   set(made ${PROJECT_BINARY_DIR}/shaders/${name}.c)

@@ -134,4 +134,5 @@ for arithmetic in native emulated; do
     compute "edges, $arithmetic" "$own PASS=4" scene splat masks sums passes surface edges
     compute "picture, $arithmetic" "$own PASS=5" sums codes surface
     compute "eye-dome lighting, $arithmetic" "$own PASS=6" codes eye_dome
+    compute "averages, $arithmetic" "$own PASS=7" average
 done

@@ -25,6 +25,7 @@ void backend_write(json_writer *json, const ewa_renderer_info *info) {
     json_count(json, "device_readbacks", info->readback_count);
     json_count(json, "device_dispatches", info->dispatch_count);
     json_count(json, "device_upload_bytes", info->upload_bytes);
+    json_count(json, "device_readback_bytes", info->readback_bytes);
 }
 
 static void write_gpu(json_writer *json, const ewa_gpu_info *gpu) {

@@ -74,6 +74,7 @@ typedef struct ewa_renderer_info {
     /// bytes that it was sent.
     uint32_t wait_count, readback_count, dispatch_count;
     uint64_t upload_bytes;
+    uint64_t readback_bytes; ///< that were read from it
 } ewa_renderer_info;
 
 /// Describes a renderer. Errors: EWA_ERROR_ARGUMENT (struct_size).

@@ -912,6 +912,7 @@ class ewa_renderer_info(c.Structure):
     readback_count: Annotated[int, c.c_uint32]
     dispatch_count: Annotated[int, c.c_uint32]
     upload_bytes: Annotated[int, c.c_uint64]
+    readback_bytes: Annotated[int, c.c_uint64]
 
 
 @_struct

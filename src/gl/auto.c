@@ -9,6 +9,7 @@
 #include "gl/backends.h"
 #include "gl/compute.h"
 #include "gl/tuning.h"
+#include "surface/supersampling.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,6 +28,7 @@ typedef struct scene_kind {
 typedef struct auto_state {
     ewa_context *context;
     void *cpu, *gl; ///< of the back ends; gl: NULL: not opened, or gone
+    ewa_buffer parts; ///< of pixels
     bool tried;     ///< whether the device has been looked for
     scene_kind kind;
     int step;
@@ -59,6 +61,7 @@ static void destroy(ewa_context *context, void *state) {
     auto_state *old = state;
     drop_gl(old);
     ewa_backend_cpu.destroy(context, old->cpu);
+    ewa_buffer_free(context, &old->parts);
     ewa_release(context, old, 1, sizeof *old);
 }
 
@@ -83,9 +86,9 @@ static void open_gl(auto_state *both) {
     if (software || !gl->verdict.exact) drop_gl(both);
 }
 
-static scene_kind kind_of(const ewa_render_job *job) {
+static scene_kind kind_of(const ewa_render_job *job, uint32_t finer) {
     const ewa_frame *frame = &job->frame;
-    scene_kind kind = {.pixel_count = (uint64_t)job->camera.width_px * (job->end_row_px - job->first_row_px),
+    scene_kind kind = {.pixel_count = (uint64_t)finer * finer * job->camera.width_px * (job->end_row_px - job->first_row_px),
                        .passes = job->options.passes,
                        .layers = job->options.layers,
                        .edge_layers = job->options.edge_layers,
@@ -113,10 +116,10 @@ static bool needs_one(const ewa_render_job *job) {
 }
 
 /// Draws by the device; false: the frame is still to be drawn, and `*status` is EWA_OK unless the call is to end.
-static bool draw_by_gl(auto_state *both, const ewa_render_job *job, ewa_render_stats *stats,
+static bool draw_by_gl(auto_state *both, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats,
                        ewa_status *status) {
     ewa_failures_soften(both->context, true);
-    *status = ewa_backend_gl.draw(both->gl, job, stats);
+    *status = finer > 1 ? ewa_backend_gl.draw_parts(both->gl, job, finer, stats) : ewa_backend_gl.draw(both->gl, job, stats);
     ewa_failures_soften(both->context, false);
     if (*status == EWA_OK || *status == EWA_CANCELLED) return true;
     // The same scene would not fit again. What else fails, fails for good.
@@ -142,9 +145,16 @@ static void learn(auto_state *both, double took_s) {
              1e3 * both->cpu_s, 1e3 * both->gl_s);
 }
 
-static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats *stats) {
+static ewa_status draw_by_cpu(auto_state *both, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
+    if (finer > 1) return ewa_parts_draw(both->context, &ewa_backend_cpu, both->cpu, job, finer, &both->parts, stats);
+    return ewa_backend_cpu.draw(both->cpu, job, stats);
+}
+
+/// Draws a frame of `finer` squared parts of each pixel, or of pixels, by the faster.
+static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
     auto_state *both = state;
-    const scene_kind kind = kind_of(job);
+    const double start_s = ewa_now_s();
+    const scene_kind kind = kind_of(job, finer);
     if (is_other(&kind, &both->kind)) {
         both->kind = kind;
         both->step = both->tried && !both->gl ? DECIDED : FIRST;
@@ -155,12 +165,16 @@ static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats 
     const bool wanted = both->step == WARM_UP || both->step == MEASURE_GL || both->by_gl;
     both->drew_by_gl = wanted && both->gl && !needs_one(job);
     ewa_status status = EWA_OK;
-    if (!both->drew_by_gl || !draw_by_gl(both, job, stats, &status)) {
+    if (!both->drew_by_gl || !draw_by_gl(both, job, finer, stats, &status)) {
         both->drew_by_gl = false;
-        status = ewa_backend_cpu.draw(both->cpu, job, stats);
+        status = draw_by_cpu(both, job, finer, stats);
     }
-    if (status == EWA_OK && !needs_one(job)) learn(both, stats->total_s);
+    if (status == EWA_OK && !needs_one(job)) learn(both, ewa_now_s() - start_s);
     return status;
+}
+
+static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats *stats) {
+    return draw_parts(state, job, 1, stats);
 }
 
 static void describe(const void *state, ewa_renderer_info *info) {
@@ -173,4 +187,9 @@ static void describe(const void *state, ewa_renderer_info *info) {
     memcpy(info->remark, both->remark, sizeof info->remark);
 }
 
-const ewa_backend ewa_backend_auto = {"auto", create, destroy, draw, describe, false};
+const ewa_backend ewa_backend_auto = {.name = "auto",
+                                      .create = create,
+                                      .destroy = destroy,
+                                      .draw = draw,
+                                      .describe = describe,
+                                      .draw_parts = draw_parts};

@@ -5,7 +5,7 @@
 // host waits once, at the end. What it has to make (host_records.h) takes one wait more, and what found no room is
 // drawn again with more of it.
 #include "gl/eye_dome.h"
-#include "gl/result.h"
+#include "gl/parts.h"
 
 #include <string.h>
 
@@ -238,7 +238,7 @@ static ewa_status wait_for(ewa_gl_compute *gl, const char *what) {
 
 static void read_back(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, uint64_t at_bytes, uint64_t size_bytes, void *to) {
     if (!size_bytes) return;
-    gl->device->counts.readbacks++;
+    gl->device->counts.readbacks++, gl->device->counts.readback_bytes += size_bytes;
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[kind].name);
     glGetBufferSubData(GL_COPY_READ_BUFFER, (GLintptr)at_bytes, (GLsizeiptr)size_bytes, to);
 }
@@ -312,6 +312,11 @@ static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
         EWA_TRY(ewa_gl_eye_dome_use(gl, &b->eye_dome->eye_dome, &group_count));
         dispatch(gl, group_count, EWA_GL_TIME_RESOLVE);
     }
+    if (b->result.finer > 1) {
+        uint64_t group_count;
+        EWA_TRY(ewa_gl_parts_use(gl, &b->result, b->job, b->rows, &group_count));
+        dispatch(gl, group_count, EWA_GL_TIME_RESOLVE);
+    }
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_READBACK].name);
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
     glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, sizeof(ewa_gl_tally));
@@ -336,10 +341,10 @@ static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tal
 /// Fetches the counts and, unless it has to be drawn again, the pixels.
 static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outcome, bool *again) {
     EWA_TRY(wait_for(gl, "the picture"));
-    gl->device->counts.readbacks++;
+    const uint64_t size_bytes = READBACK_HEAD + b->result.read_words * sizeof(uint32_t);
+    gl->device->counts.readbacks++, gl->device->counts.readback_bytes += size_bytes;
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_READBACK].name);
-    const uint8_t *from = glMapBufferRange(
-        GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(READBACK_HEAD + b->result.read_words * sizeof(uint32_t)), GL_MAP_READ_BIT);
+    const uint8_t *from = glMapBufferRange(GL_COPY_READ_BUFFER, 0, (GLsizeiptr)size_bytes, GL_MAP_READ_BIT);
     if (!from) return ewa_gl_check(gl->device, "the picture");
     ewa_gl_tally tally;
     memcpy(&tally, from, sizeof tally);
@@ -390,7 +395,7 @@ ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_
     b.tiles_per_row = (b.width_px + gl->tile_px - 1) / gl->tile_px;
     b.tile_count = b.tiles_per_row * ((b.height_px + gl->tile_px - 1) / gl->tile_px);
     b.eye_dome = ewa_gl_eye_dome_of(gl, job, rows);
-    b.result = ewa_gl_result_of(&job->resolve, b.eye_dome, (uint64_t)job->tiles.width_px * rows.first_px,
+    b.result = ewa_gl_result_of(&job->resolve, b.eye_dome, gl->finer, (uint64_t)job->tiles.width_px * rows.first_px,
                                 (uint64_t)job->tiles.width_px * (rows.end_px - rows.first_px));
     bool again = true;
     while (again) {

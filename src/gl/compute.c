@@ -7,6 +7,7 @@
 #include "gl/compute.h"
 #include "gl/backends.h"
 #include "gl/tuning.h"
+#include "surface/supersampling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -32,6 +33,7 @@ void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     ewa_buffer_free(context, &old->uses);
     ewa_buffer_free(context, &old->placements);
     ewa_buffer_free(context, &old->views);
+    ewa_buffer_free(context, &old->parts);
     ewa_job_room_free(context, &old->room);
     ewa_release(context, old, 1, sizeof *old);
 }
@@ -60,6 +62,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     ewa_gl_compute *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->finer = 1;
     made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->tile_px = (uint32_t)ewa_gl_tuning("tile_px", DEFAULT_TILE_PX);
     made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
@@ -234,6 +237,22 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     return EWA_OK;
 }
 
+static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
+    ewa_gl_compute *gl = state;
+    // Bands of the device are of whole pixels.
+    if (EWA_FIELD_PX % finer) return ewa_parts_draw(gl->context, &ewa_backend_gl, state, job, finer, &gl->parts, stats);
+    const double start_s = ewa_now_s();
+    ewa_render_job fine;
+    EWA_TRY(ewa_parts_start(gl->context, job, finer, &gl->parts, &fine));
+    gl->finer = finer;
+    const ewa_status status = ewa_gl_compute_draw(state, &fine, stats);
+    gl->finer = 1;
+    EWA_TRY(status);
+    ewa_parts_finish(gl->context, job, &fine);
+    stats->total_s = ewa_now_s() - start_s;
+    return EWA_OK;
+}
+
 static void describe(const void *state, ewa_renderer_info *info) {
     const ewa_gl_compute *gl = state;
     snprintf(info->device, sizeof info->device, "%s", gl->device->facts.renderer);
@@ -241,9 +260,14 @@ static void describe(const void *state, ewa_renderer_info *info) {
     const ewa_gl_counts *counts = &gl->device->counts;
     info->wait_count = counts->waits, info->readback_count = counts->readbacks;
     info->dispatch_count = counts->dispatches, info->upload_bytes = counts->upload_bytes;
+    info->readback_bytes = counts->readback_bytes;
     if (gl->device->facts.software)
         snprintf(info->remark, sizeof info->remark, "%.100s is software", gl->device->facts.renderer);
 }
 
-const ewa_backend ewa_backend_gl = {"gl", ewa_gl_compute_create, ewa_gl_compute_destroy, ewa_gl_compute_draw,
-                                    describe, false};
+const ewa_backend ewa_backend_gl = {.name = "gl",
+                                    .create = ewa_gl_compute_create,
+                                    .destroy = ewa_gl_compute_destroy,
+                                    .draw = ewa_gl_compute_draw,
+                                    .describe = describe,
+                                    .draw_parts = draw_parts};

@@ -91,6 +91,8 @@ typedef struct ewa_gl_compute {
     bool needs_host;  ///< the last band asked the host for something: the next is likely to
     bool unfinished; ///< a band ended early: its sums are not back at their start
     uint32_t tile_px, unit_splats, min_parts;
+    uint32_t finer;   ///< parts of a pixel along each side that the device averages; 1: none
+    ewa_buffer parts; ///< of pixels, or their averages
 } ewa_gl_compute;
 
 /// Whether a device has what the pipeline needs, and how it calculates. Errors: EWA_ERROR_MEMORY,

@@ -31,7 +31,7 @@ typedef struct ewa_gl_facts {
 /// What a device was asked for, since its user set this to zeros.
 typedef struct ewa_gl_counts {
     uint32_t waits, readbacks, dispatches;
-    uint64_t upload_bytes;
+    uint64_t upload_bytes, readback_bytes;
 } ewa_gl_counts;
 
 /// A device with a context of its own. Used by one thread at a time.

@@ -34,7 +34,8 @@ static void describe_cpu(const void *state, ewa_renderer_info *info) {
     snprintf(info->remark, sizeof info->remark, "the library was built without OpenGL");
 }
 
-const ewa_backend ewa_backend_auto = {"auto", create_cpu, destroy_cpu, draw_cpu, describe_cpu, false};
+const ewa_backend ewa_backend_auto = {
+    .name = "auto", .create = create_cpu, .destroy = destroy_cpu, .draw = draw_cpu, .describe = describe_cpu};
 
 ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     (void)info;

@@ -437,5 +437,8 @@ static void describe(const void *state, ewa_renderer_info *info) {
         snprintf(info->remark, sizeof info->remark, "%.100s is software", raster->device->facts.renderer);
 }
 
-const ewa_backend ewa_backend_gl_raster = {"gl-raster", ewa_raster_create, ewa_raster_destroy,
-                                           ewa_raster_draw, describe, false};
+const ewa_backend ewa_backend_gl_raster = {.name = "gl-raster",
+                                           .create = ewa_raster_create,
+                                           .destroy = ewa_raster_destroy,
+                                           .draw = ewa_raster_draw,
+                                           .describe = describe};

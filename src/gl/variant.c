@@ -90,13 +90,15 @@ void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_vari
                           ewa_shader_edges},
         [EWA_GL_PICTURE] = {ewa_shader_sums, ewa_shader_codes, ewa_shader_surface},
         [EWA_GL_EYE_DOME] = {ewa_shader_codes, ewa_shader_eye_dome},
+        [EWA_GL_AVERAGES] = {ewa_shader_average},
     };
     static const int pass_numbers[] = {[EWA_GL_VISIBILITY] = 1,
                                        [EWA_GL_SUMS] = 2,
                                        [EWA_GL_FIRST_SURFACE] = 3,
                                        [EWA_GL_EDGES] = 4,
                                        [EWA_GL_PICTURE] = 5,
-                                       [EWA_GL_EYE_DOME] = 6};
+                                       [EWA_GL_EYE_DOME] = 6,
+                                       [EWA_GL_AVERAGES] = 7};
     const size_t at = ewa_gl_head_write(arithmetic, source->head);
     snprintf(source->head + at, sizeof source->head - at,
              "#define PASS %d\n#define TILE_PX %d\n#define CHANNELS %d\n#define WITH_NORMAL %d\n"
@@ -120,7 +122,8 @@ static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ew
                                         [EWA_GL_FIRST_SURFACE] = "first surface",
                                         [EWA_GL_EDGES] = "edges",
                                         [EWA_GL_PICTURE] = "picture",
-                                        [EWA_GL_EYE_DOME] = "eye-dome lighting"};
+                                        [EWA_GL_EYE_DOME] = "eye-dome lighting",
+                                        [EWA_GL_AVERAGES] = "averages"};
     ewa_gl_source source;
     ewa_gl_variant_write(&variants->arithmetic, v, &source);
     const ewa_gl_stage stage = {GL_COMPUTE_SHADER, source.head, source.pieces, source.piece_count};

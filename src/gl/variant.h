@@ -17,7 +17,8 @@ typedef enum ewa_gl_pass {
     EWA_GL_FIRST_SURFACE,
     EWA_GL_EDGES,
     EWA_GL_PICTURE,
-    EWA_GL_EYE_DOME
+    EWA_GL_EYE_DOME,
+    EWA_GL_AVERAGES
 } ewa_gl_pass;
 
 /// What a program is made for; all that it does not depend on is 0.

@@ -48,6 +48,8 @@ struct ewa_backend {
     void (*describe)(const void *state, ewa_renderer_info *info);
     /// Adds up numbers of all processes that draw a frame together, each of which has a part of its sources. NULL: there are no others.
     ewa_status (*add)(void *state, int64_t *numbers, uint32_t count);
+    /// Draws every pixel of a frame as `finer` squared and their averages, as ewa_parts_draw() does by draw(). NULL: that does.
+    ewa_status (*draw_parts)(void *state, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats);
 };
 
 /// Threads and vectors of the processor; what others are compared with.

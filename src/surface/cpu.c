@@ -84,4 +84,4 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     return EWA_OK;
 }
 
-const ewa_backend ewa_backend_cpu = {"cpu", create, destroy, draw, NULL, false};
+const ewa_backend ewa_backend_cpu = {.name = "cpu", .create = create, .destroy = destroy, .draw = draw};

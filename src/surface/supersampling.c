@@ -152,22 +152,23 @@ static uint32_t band_rows_px(const ewa_backend *backend, const ewa_render_job *j
                                          : fields);
 }
 
-/// Draws every pixel as `finer` squared.
-static ewa_status draw_parts(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
-                             uint32_t finer, ewa_buffer *room, ewa_render_stats *stats) {
+/// The frame of parts of rows of a frame.
+static ewa_render_job finer_job(const ewa_render_job *job, uint32_t finer, uint32_t first_px, uint32_t end_px) {
+    ewa_render_job fine = *job;
+    fine.camera = finer_camera(&job->camera, finer);
+    fine.options.point_size_px *= finer;
+    fine.first_row_px = first_px * finer, fine.end_row_px = end_px * finer;
+    return fine;
+}
+
+ewa_status ewa_parts_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                          uint32_t finer, ewa_buffer *room, ewa_render_stats *stats) {
     const uint32_t width_px = job->camera.width_px;
-    if ((uint64_t)finer * width_px > EWA_CAMERA_MAX_SIDE_PX ||
-        (uint64_t)finer * job->camera.height_px > EWA_CAMERA_MAX_SIDE_PX)
-        return ewa_fail(context, EWA_ERROR_LIMIT,
-                        "render: supersampling is %u; %u times %u x %u pixels are more than %d along a side", finer,
-                        finer, width_px, job->camera.height_px, EWA_CAMERA_MAX_SIDE_PX);
+    *stats = (ewa_render_stats){.splat_count = 0};
     const uint32_t band_px = band_rows_px(backend, job, finer);
     for (uint32_t first_px = job->first_row_px; first_px < job->end_row_px; first_px += band_px) {
         const uint32_t end_px = job->end_row_px - first_px < band_px ? job->end_row_px : first_px + band_px;
-        ewa_render_job fine = *job;
-        fine.camera = finer_camera(&job->camera, finer);
-        fine.options.point_size_px *= finer;
-        fine.first_row_px = first_px * finer, fine.end_row_px = end_px * finer;
+        ewa_render_job fine = finer_job(job, finer, first_px, end_px);
         const size_t row = fine.camera.width_px;
         ewa_frame parts;
         EWA_TRY(reserve_parts(context, room, &job->frame, row * fine.first_row_px,
@@ -183,18 +184,73 @@ static ewa_status draw_parts(ewa_context *context, const ewa_backend *backend, v
     return EWA_OK;
 }
 
+ewa_status ewa_parts_start(ewa_context *context, const ewa_render_job *job, uint32_t finer, ewa_buffer *room,
+                           ewa_render_job *fine) {
+    *fine = finer_job(job, finer, job->first_row_px, job->end_row_px);
+    fine->frame.rgba8 = NULL;
+    if (!job->frame.rgba8 || job->frame.rgba) return EWA_OK;
+    const size_t width = job->camera.width_px, rows = job->end_row_px - job->first_row_px;
+    EWA_TRY(ewa_buffer_reserve(context, room, 4 * width * rows, sizeof(float)));
+    fine->frame.rgba = plane_before(room->data, width * job->first_row_px, 4);
+    return EWA_OK;
+}
+
+typedef struct finish_job {
+    const ewa_frame *means, *frame;
+    uint32_t first_px, width_px;
+} finish_job;
+
+static void finish_row(void *data, uint32_t y, uint32_t worker) {
+    (void)worker;
+    const finish_job *job = data;
+    const size_t first = ((size_t)job->first_px + y) * job->width_px;
+    for (size_t i = first; i < first + job->width_px; i++) {
+        if (job->frame->rgba8) store_color(job->frame, i, job->means->rgba + 4 * i);
+        if (!job->frame->normal) continue;
+        float n[3];
+        memcpy(n, job->frame->normal + 3 * i, sizeof n);
+        store_normal(job->frame, i, n);
+    }
+}
+
+void ewa_parts_finish(ewa_context *context, const ewa_render_job *job, const ewa_render_job *fine) {
+    ewa_frame bytes = job->frame;
+    bytes.rgba = NULL; // are there
+    finish_job finish = {&fine->frame, &bytes, job->first_row_px, job->camera.width_px};
+    ewa_parallel(context, finish_row, &finish, job->end_row_px - job->first_row_px);
+}
+
+/// Draws every pixel as `finer` squared, by the back end's own averages if it makes some.
+static ewa_status draw_averages(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                                uint32_t finer, ewa_buffer *room, ewa_render_stats *stats) {
+    const ewa_camera *camera = &job->camera;
+    if ((uint64_t)finer * camera->width_px > EWA_CAMERA_MAX_SIDE_PX ||
+        (uint64_t)finer * camera->height_px > EWA_CAMERA_MAX_SIDE_PX)
+        return ewa_fail(context, EWA_ERROR_LIMIT,
+                        "render: supersampling is %u; %u times %u x %u pixels are more than %d along a side", finer,
+                        finer, camera->width_px, camera->height_px, EWA_CAMERA_MAX_SIDE_PX);
+    ewa_render_stats took;
+    if (backend->draw_parts)
+        EWA_TRY(backend->draw_parts(state, job, finer, &took));
+    else
+        EWA_TRY(ewa_parts_draw(context, backend, state, job, finer, room, &took));
+    took.level = 0;
+    ewa_render_stats_add(stats, &took);
+    return EWA_OK;
+}
+
 ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
                                   ewa_buffer *room, ewa_buffer *mixing, ewa_render_stats *stats) {
     *stats = (ewa_render_stats){.splat_count = 0};
     const ewa_division parts = job->parts;
-    if (!(parts.finer_share > 0)) return draw_parts(context, backend, state, job, parts.count, room, stats);
+    if (!(parts.finer_share > 0)) return draw_averages(context, backend, state, job, parts.count, room, stats);
     ewa_frame_pair pair;
     EWA_TRY(ewa_frame_pair_reserve(context, mixing, &job->camera, &job->frame, &pair));
     ewa_render_job own = *job;
     own.frame = pair.coarse;
-    EWA_TRY(draw_parts(context, backend, state, &own, parts.count, room, stats));
+    EWA_TRY(draw_averages(context, backend, state, &own, parts.count, room, stats));
     own.frame = pair.fine;
-    EWA_TRY(draw_parts(context, backend, state, &own, 2 * parts.count, room, stats));
+    EWA_TRY(draw_averages(context, backend, state, &own, 2 * parts.count, room, stats));
     ewa_frame_pair_mix(context, &pair, parts.finer_share, &job->camera, job->first_row_px, job->end_row_px, &job->frame);
     return EWA_OK;
 }

@@ -14,6 +14,19 @@
 ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
                                   ewa_buffer *room, ewa_buffer *mixing, ewa_render_stats *stats);
 
+/// Draws every pixel as `finer` squared and the averages of them, by the back end's draw(), band by band. Sets `stats`. Errors: those of
+/// the back end; EWA_ERROR_MEMORY.
+ewa_status ewa_parts_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                          uint32_t finer, ewa_buffer *room, ewa_render_stats *stats);
+
+/// Sets up the frame of parts for a back end that averages them itself: its planes are the averages', without bytes, in linear colours
+/// and sums of normals. `room` is memory that survives frames. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_parts_start(ewa_context *context, const ewa_render_job *job, uint32_t finer, ewa_buffer *room,
+                           ewa_render_job *fine);
+
+/// Makes of these averages the planes of the frame.
+void ewa_parts_finish(ewa_context *context, const ewa_render_job *job, const ewa_render_job *fine);
+
 /// Two pictures of a frame that become one.
 typedef struct ewa_frame_pair {
     ewa_frame coarse, fine;

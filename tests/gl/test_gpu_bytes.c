@@ -106,21 +106,32 @@ TEST_ON(test_eye_dome, 0) {
 }
 
 TEST_ON(test_pixels_of_parts, 0) {
-    enum { SMALL_PX = 40 };
+    enum { SMALL_PX = 75 };
+    static const char *const tunings[] = {"", "storage=2500000"};
     OWNED(picture_free) picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);
     OWNED(scene_free) scene of;
     assert_int_equal(scene_make(context, SCENE_CUBE, POINTS, SMALL_PX, SMALL_PX, &of), EWA_OK);
     ewa_surfels *parts[1];
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
-    ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
+    ewa_renderer *cpu = NULL;
     assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
     WITH_DEFAULTS(ewa_render_options, options);
-    for (options.supersampling = 0; options.supersampling <= 2; options.supersampling += 2) {
-        draw(cpu, parts, "0", &of, &options, &expected);
-        draw(gl, parts, "0", &of, &options, &found);
-        assert_same(&expected, &found, "supersampled");
+    for (int banded = 0; banded < 2; banded++) {
+        OWNED(ewa_renderer_destroy) ewa_renderer *gl = open_tuned(context, tunings[banded]);
+        for (options.supersampling = banded ? 2 : 0; options.supersampling <= (banded ? 2 : 4); options.supersampling++) {
+            draw(cpu, parts, "0", &of, &options, &expected);
+            draw(gl, parts, "0", &of, &options, &found);
+            assert_same(&expected, &found, "supersampled");
+            memset(found.frame.rgba8, 1, 4 * (size_t)SMALL_PX * SMALL_PX);
+            const ewa_frame bytes = {.rgba8 = found.frame.rgba8};
+            assert_int_equal(ewa_render(gl, parts[0], &of.camera, &options, &bytes, NULL), EWA_OK);
+            assert_same(&expected, &found, "supersampled, bytes alone");
+            draw(gl, parts, "0", &of, &options, &found); // there is room by now
+            ewa_renderer_info info = {.struct_size = sizeof info};
+            assert_int_equal(ewa_renderer_describe(gl, &info), EWA_OK);
+            if (options.supersampling > 1) assert_true((info.wait_count > 1) == banded);
+        }
     }
-    ewa_renderer_destroy(&gl);
     ewa_renderer_destroy(&cpu);
     ewa_surfels_destroy(&parts[0]);
 }

@@ -108,7 +108,14 @@ static void test_both_draw(void **state) {
         draw_same(renderer, 1);
         assert_string_equal(gpu_backend(renderer), wanted[i]);
     }
-    gpu_scene_resize(&at, 2 * WIDTH_PX, 2 * HEIGHT_PX); // measured anew
+    at.options.supersampling = 2; // of more pixels: measured anew
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        draw_same(renderer, 1);
+        assert_string_equal(gpu_backend(renderer), wanted[i]);
+    }
+    at.options.supersampling = 1;
+    draw_same(renderer, 4);
+    gpu_scene_resize(&at, 2 * WIDTH_PX, 2 * HEIGHT_PX);
     draw_same(renderer, 1);
     assert_string_equal(gpu_backend(renderer), "cpu");
     draw_same(renderer, 1);

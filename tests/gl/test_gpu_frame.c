@@ -47,7 +47,7 @@ TEST(test_counts) {
     assert_int_equal(ewa_renderer_create(at.context, &renderer), EWA_OK);
     assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
     const ewa_renderer_info none = info_of(renderer);
-    assert_true(none.wait_count + none.readback_count + none.dispatch_count == 0 && none.upload_bytes == 0);
+    assert_true(none.wait_count + none.readback_count + none.dispatch_count == 0 && none.upload_bytes + none.readback_bytes == 0);
 }
 
 /// Eye-dome lighting is a program more, and nothing else: its depths and colours stay on the device.
@@ -67,6 +67,29 @@ TEST(test_eye_dome) {
     assert_int_equal(infos[1].readback_count, 1);
     assert_int_equal(infos[1].dispatch_count, infos[0].dispatch_count + 1);
     assert_int_equal(infos[1].upload_bytes, infos[0].upload_bytes);
+    assert_int_equal(infos[1].readback_bytes, infos[0].readback_bytes);
+}
+
+/// Of pixels in parts the averages are read, not the parts.
+TEST(test_parts) {
+    enum { HEAD_BYTES = 64 };
+    OWNED(gpu_scene_free) gpu_scene at;
+    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    const uint32_t divisions[] = {1, 2, 4, 3};
+    for (int i = 0; i < 4; i++) {
+        at.options.supersampling = divisions[i];
+        for (int frame = 0; frame < 2; frame++) assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+        assert_true(gpu_scene_same(&at, rgba8));
+        const ewa_renderer_info info = info_of(renderer);
+        const uint64_t pixels = WIDTH_PX * HEIGHT_PX, parts = pixels * divisions[i] * divisions[i];
+        assert_int_equal(info.wait_count, 1);
+        assert_int_equal(info.readback_count, 1);
+        // Bytes; colours; of divisions that no tile is a multiple of, those of all parts.
+        const uint64_t wanted = divisions[i] == 1 ? 4 * pixels : divisions[i] == 3 ? 16 * parts : 16 * pixels;
+        assert_int_equal(info.readback_bytes, HEAD_BYTES + wanted);
+    }
 }
 
 /// Of a camera among the surfels some touch the eye's plane, which the host draws up: one wait more. It gets them, and from

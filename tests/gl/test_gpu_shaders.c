@@ -37,7 +37,7 @@ TEST(test_passes) {
     static const bool all[][NUMBERS] = {{0}, {1, 1, 1, 1, 1, 1, 1, 1}, {1, 0, 0, 0, 0, 1, 0, 0}, {0, 1, 0, 1, 1, 0, 0, 0},
                                         {1, 0, 1, 0, 0, 0, 1, 1}};
     for (size_t a = 0; a < 2; a++)
-        for (int pass = EWA_GL_CULL; pass <= EWA_GL_EYE_DOME; pass++)
+        for (int pass = EWA_GL_CULL; pass <= EWA_GL_AVERAGES; pass++)
             for (size_t k = 0; k < (pass < EWA_GL_VISIBILITY ? 1 : sizeof all / sizeof all[0]); k++) {
                 const bool *with = all[k];
                 const ewa_gl_variant v = {.pass = (uint8_t)pass,
