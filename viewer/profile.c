@@ -143,7 +143,7 @@ static bool save(viewer *v, const char *rest) {
         uint8_t *rgba8 = malloc(row_bytes * height_px);
         status = rgba8 && draw_graph(v, width_px, height_px, 0, rgba8) ? EWA_OK : EWA_ERROR_MEMORY;
         if (status == EWA_OK)
-            status = ewa_pixels_save(v->probe.context, path, width_px, height_px, 4, rgba8, row_bytes);
+            status = ewa_pixels_save(v->probe.context, path, width_px, height_px, 4, rgba8, row_bytes, NULL);
         free(rgba8);
     } else {
         status = ewa_cloud_save(v->profile.of.points, path, NULL);

@@ -52,7 +52,7 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
     for (size_t i = 0; status == EWA_OK && channel_count == 3 && i < (size_t)width_px * height_px; i++)
         memmove(rgba8 + 3 * i, rgba8 + 4 * i, 3);
     if (status == EWA_OK)
-        status = ewa_pixels_save(v->probe.context, path, width_px, height_px, channel_count, rgba8, channel_count * (size_t)width_px);
+        status = ewa_pixels_save(v->probe.context, path, width_px, height_px, channel_count, rgba8, channel_count * (size_t)width_px, NULL);
     free(rgba8);
     if (status != EWA_OK)
         viewer_tell(v, "%s: the picture cannot be saved: %s", path,

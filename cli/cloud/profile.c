@@ -102,7 +102,7 @@ static bool save_graph(cli_session *session, const profile_arguments *arguments,
     ewa_status status = ewa_profile_draw(profile, &options, &canvas);
     if (status == EWA_OK)
         status = ewa_pixels_save(session->context, arguments->graph_path, size->width_px, size->height_px, 4, rgba8,
-                                 row_bytes);
+                                 row_bytes, NULL);
     free(rgba8);
     return session_passed(session, status);
 }

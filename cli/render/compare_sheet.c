@@ -122,7 +122,7 @@ bool compare_sheet_save(cli_session *session, const compare_sheet *sheet, const 
         draw_row(&canvas, &sheet->rows[i], top);
         top += LABEL_PX + sheet->rows[i].height_px + GAP_PX;
     }
-    const ewa_status status = ewa_pixels_save(session->context, path, width, height, 4, rgba8, 4 * (size_t)width);
+    const ewa_status status = ewa_pixels_save(session->context, path, width, height, 4, rgba8, 4 * (size_t)width, NULL);
     free(rgba8);
     return session_passed(session, status);
 }

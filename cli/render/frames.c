@@ -35,7 +35,7 @@ static const cli_option frames_table[] = {
     {"fps", OPTION_NUMBER, offsetof(frames_arguments, frames_per_s), "F", "(0, 1000]",
      .help = "frames per second of a film", .absent = "auto: 30"},
     {"quality", OPTION_INTEGER, offsetof(frames_arguments, quality), "Q", "[0, 100]",
-     .help = "quality of a film, from 0 (small) to 100 (good)", .absent = "auto: 75"},
+     .help = "quality of a film or a JPEG, from 0 (small) to 100 (good)", .absent = "auto: 75, of JPEG 95"},
 };
 
 const option_group frames_options = OPTION_GROUP("Frames", frames_table);
@@ -50,8 +50,9 @@ bool frames_many(const frames_arguments *arguments) { return arguments->turntabl
 /// What is wrong with the output of several frames or one; NULL: nothing.
 static const char *check_output(const frames_arguments *arguments, const char *output, bool opaque) {
     const video_format *film = video_find_format(output);
-    if (!film && (arguments->frames_per_s > 0 || arguments->quality >= 0))
-        return "--fps and --quality are for films: -o FILE.mp4, .webm, .mkv or .gif";
+    const bool jpeg = output && path_has_suffix(output, ".jpg|.jpeg");
+    if (!film && arguments->frames_per_s > 0) return "--fps is for films: -o FILE.mp4, .webm, .mkv or .gif";
+    if (!film && !jpeg && arguments->quality >= 0) return "--quality is for films (.mp4, .webm, .mkv) and JPEG (.jpg)";
     if (film && arguments->skip_existing) return "--skip-existing is for numbered files, not for films";
     if (film && arguments->part.kind == PART_ROBIN)
         return "--frames I/N: a film of every Nth frame jumps; say A-B, or write numbered files";
@@ -60,7 +61,7 @@ static const char *check_output(const frames_arguments *arguments, const char *o
     if (film && !frames_many(arguments)) return "--output: a film needs --turntable or --path";
     if (film && !video_has_alpha(film) && !opaque)
         return "--background: this film has no transparency; .webm has, and so have numbered pictures";
-    if (!film && !opaque && output && path_has_suffix(output, ".jpg|.jpeg"))
+    if (jpeg && !opaque)
         return "--background: JPEG has no transparency; .png has";
     if (!film && frames_many(arguments) && !pattern_is_numbered(output))
         return "--output: frames go to a film (.mp4, .webm, .mkv, .gif) or to numbered files: one %d, %4d or "

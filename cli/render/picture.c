@@ -35,7 +35,7 @@ static bool take_aov(const char *word, size_t length, picture_paths *paths,
 
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]) {
-    *paths = (picture_paths){.color = color};
+    *paths = (picture_paths){.color = color, .jpeg_quality = -1};
     if (color && !output_check_suffix("output", color, ".png|.jpg|.jpeg|.exr|.pfm|-", message)) return false;
     while (aov) {
         const size_t length = strcspn(aov, ",");
@@ -117,11 +117,11 @@ static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_o
 }
 
 ewa_status picture_save_codes(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px, bool opaque,
-                              uint8_t *rgba8) {
+                              uint8_t *rgba8, const ewa_image_save_options *options) {
     const size_t width = width_px, pixel_count = width * height_px;
-    if (!opaque) return ewa_pixels_save(context, path, width_px, height_px, 4, rgba8, 4 * width);
+    if (!opaque) return ewa_pixels_save(context, path, width_px, height_px, 4, rgba8, 4 * width, options);
     for (size_t i = 0; i < pixel_count; i++) memmove(rgba8 + 3 * i, rgba8 + 4 * i, 3);
-    return ewa_pixels_save(context, path, width_px, height_px, 3, rgba8, 3 * width);
+    return ewa_pixels_save(context, path, width_px, height_px, 3, rgba8, 3 * width, options);
 }
 
 bool picture_save(cli_session *session, const picture_paths *paths, const ewa_camera *camera, bool opaque,
@@ -129,6 +129,7 @@ bool picture_save(cli_session *session, const picture_paths *paths, const ewa_ca
     ewa_image_save_options options;
     ewa_image_save_options_init(&options, sizeof options);
     options.world_to_camera = camera->world_to_camera;
+    if (paths->jpeg_quality >= 0) options.jpeg_quality = (uint32_t)paths->jpeg_quality;
     const struct {
         const char *path, *channels;
         const ewa_image *image;
@@ -146,7 +147,7 @@ bool picture_save(cli_session *session, const picture_paths *paths, const ewa_ca
     if (status == EWA_OK && paths->color) {
         session->subject = paths->color;
         status = picture->rgba8 ? picture_save_codes(session->context, paths->color, camera->width_px, camera->height_px, opaque,
-                                                     picture->rgba8)
+                                                     picture->rgba8, &options)
                                 : save_linear(paths, &options, picture);
     }
     return session_passed(session, status);

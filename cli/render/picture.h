@@ -13,6 +13,7 @@ typedef struct picture_paths {
     const char *color;
     char depth[1024], normal[1024], coverage[1024]; ///< .exr or .pfm; empty: not asked for
     bool no_normals; ///< what is drawn has none: .exr goes without their channels
+    int64_t jpeg_quality; ///< from 0 to 100; -1: the library's default
 } picture_paths;
 
 /// Fills the paths from -o, or NULL, and --aov; says in `message` what is wrong with them. `aov` may be NULL.
@@ -31,9 +32,10 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
                   cli_picture *picture);
 void picture_free(cli_picture *picture);
 
-/// Writes an 8-bit picture, without alpha where that says nothing, which the pixels are packed for; the status of the library.
+/// Writes an 8-bit picture, without alpha where that says nothing, which the pixels are packed for; `options` may be NULL. The status of the
+/// library.
 ewa_status picture_save_codes(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px, bool opaque,
-                              uint8_t *rgba8);
+                              uint8_t *rgba8, const ewa_image_save_options *options);
 
 /// Writes all files; false after reporting. `opaque`: the background hides everything, so alpha can be left
 /// out.

@@ -74,8 +74,9 @@ static void set_defaults(void *data) {
 static bool parse_paths(const render_arguments *arguments, picture_paths *paths,
                         char message[OPTION_ERROR_BYTES]) {
     const char *color = video_find_format(arguments->output) ? NULL : arguments->output;
-    return picture_parse_paths(color, arguments->aov, paths, message) &&
-           (!frames_many(&arguments->frames) || sequence_check_paths(paths, message));
+    if (!picture_parse_paths(color, arguments->aov, paths, message)) return false;
+    paths->jpeg_quality = arguments->frames.quality;
+    return !frames_many(&arguments->frames) || sequence_check_paths(paths, message);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {

@@ -264,7 +264,7 @@ static bool film_put(void *user, uint8_t *rgba8) {
     session->subject = path;
     const bool named = pattern_expand(own->film_path, own->film_count++, sizeof path, path);
     const bool done = named && session_passed(session, picture_save_codes(session->context, path, own->film_width_px,
-                                                                          own->film_height_px, own->film_opaque, rgba8));
+                                                                          own->film_height_px, own->film_opaque, rgba8, NULL));
     session->subject = NULL;
     return done;
 }

@@ -107,6 +107,7 @@ static bool parse_paths(const volume_arguments *arguments, picture_paths *paths,
     const char *color = video_find_format(arguments->output) ? NULL : arguments->output;
     if (!picture_parse_paths(color, arguments->aov, paths, message)) return false;
     paths->no_normals = true;
+    paths->jpeg_quality = arguments->frames.quality;
     if (paths->normal[0]) {
         snprintf(message, OPTION_ERROR_BYTES, "--aov: a volume has no normals; depth and coverage it has");
         return false;

@@ -187,6 +187,7 @@ typedef struct ewa_image_save_options {
     /// OpenEXR's matrices act on row vectors.
     const double *world_to_camera;
     bool srgb_alpha_straight; ///< PNG, JPEG: un-premultiply before encoding; default true
+    uint32_t jpeg_quality;    ///< JPEG: from 0 (small) to 100 (good), on libjpeg's scale; [0, 100]; default 95
 } ewa_image_save_options;
 
 EWA_API extern const ewa_option_table ewa_image_save_options_table;
@@ -208,17 +209,21 @@ EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path,
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
-/// Writes 8-bit pixels as JPEG of quality 95, colours as fine as light; arguments as ewa_png_save(). Transparent pixels
-/// are put over white, which a warning tells. The same pixels give the same file for any number of threads. Errors:
+/// Writes 8-bit pixels as JPEG of the `jpeg_quality` of `options` (NULL: defaults), of which no other member counts; colours as fine as
+/// light; the other arguments as of ewa_png_save(). Transparent pixels are put over white, which a warning tells. The same pixels give the
+/// same file for any number of threads. Errors:
 /// EWA_ERROR_ARGUMENT (over 65,500 pixels a side, too), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (channel count),
 /// EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_jpeg_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
+                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes,
+                                 const ewa_image_save_options *options);
 
-/// Writes 8-bit pixels by suffix: .jpg and .jpeg by ewa_jpeg_save(), .png and "-", standard output, by ewa_png_save(), which see.
+/// Writes 8-bit pixels by suffix: .jpg and .jpeg by ewa_jpeg_save(), .png and "-", standard output, by ewa_png_save(), which see, and
+/// which take no options.
 /// Errors: theirs; EWA_ERROR_UNSUPPORTED for other suffixes, too.
 EWA_API ewa_status ewa_pixels_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                                   uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
+                                   uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes,
+                                   const ewa_image_save_options *options);
 
 /// Reads PNG, JPEG, WebP, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller
 /// frees the image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3,

@@ -1000,6 +1000,7 @@ class ewa_image_save_options(c.Structure):
     exr_half: Annotated[bool, c.c_bool]
     world_to_camera: Annotated[Optional[int], c.c_void_p]
     srgb_alpha_straight: Annotated[bool, c.c_bool]
+    jpeg_quality: Annotated[int, c.c_uint32]
 
 
 @_struct
@@ -2105,14 +2106,14 @@ class Functions:
         self.ewa_image_load_memory: Callable[..., int] = bind("ewa_image_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
         self.ewa_image_save: Callable[..., int] = bind("ewa_image_save", c.c_int, c.POINTER(ewa_image), c.c_char_p, c.POINTER(ewa_image_save_options))
         self.ewa_image_save_options_init: Callable[..., None] = bind("ewa_image_save_options_init", None, c.POINTER(ewa_image_save_options), c.c_size_t)
-        self.ewa_jpeg_save: Callable[..., int] = bind("ewa_jpeg_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_jpeg_save: Callable[..., int] = bind("ewa_jpeg_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t, c.POINTER(ewa_image_save_options))
         self.ewa_materials_load: Callable[..., int] = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
         self.ewa_parts: Callable[..., bytes | None] = bind("ewa_parts", c.c_char_p)
         self.ewa_photo_list_destroy: Callable[..., None] = bind("ewa_photo_list_destroy", None, c.c_void_p)
         self.ewa_photo_list_find_masks: Callable[..., int] = bind("ewa_photo_list_find_masks", c.c_int, c.c_void_p, c.c_char_p)
         self.ewa_photo_list_load: Callable[..., int] = bind("ewa_photo_list_load", c.c_int, c.c_void_p, c.c_char_p, c.c_char_p, c.c_void_p)
         self.ewa_photo_list_photos: Callable[..., Any] = bind("ewa_photo_list_photos", c.POINTER(ewa_photo), c.c_void_p, c.c_void_p)
-        self.ewa_pixels_save: Callable[..., int] = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_pixels_save: Callable[..., int] = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t, c.POINTER(ewa_image_save_options))
         self.ewa_ply_describe: Callable[..., int] = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
         self.ewa_png_save: Callable[..., int] = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
         self.ewa_transfer_choose: Callable[..., int] = bind("ewa_transfer_choose", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume), c.POINTER(ewa_transfer))

@@ -243,6 +243,8 @@ class ImageSaveOptions(TypedDict, total=False):
     exr_half: bool | None
     #: PNG, JPEG: un-premultiply before encoding; on|off, default on
     srgb_alpha_straight: bool | None
+    #: JPEG: from 0 (small) to 100 (good), on libjpeg's scale; [0, 100], default 95
+    jpeg_quality: int | None
 
 
 class InstanceOptions(TypedDict, total=False):

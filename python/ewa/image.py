@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import numbers
 import os
 import tempfile
 from typing import Any, Generic, Sequence, TypeVar, Union, overload
@@ -136,13 +137,15 @@ class Image:
     def _repr_png_(self) -> bytes | None:
         return self.encode() if "rgba8" in self._planes or self._of_floats else None
 
-    def encode(self, suffix: str = ".png") -> bytes:
+    def encode(self, suffix: str = ".png", *, quality: int | None = None) -> bytes:
         """Return the bytes of the file that :meth:`save` writes.
 
         Parameters
         ----------
         suffix : str, optional
             What it is: ".png", ".jpg", ".exr", ".pfm".
+        quality : int, optional
+            As of :meth:`save`.
 
         Raises
         ------
@@ -150,34 +153,42 @@ class Image:
         """
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "image" + suffix)
-            self.save(path)
+            self.save(path, quality=quality)
             with open(path, "rb") as file:
                 return file.read()
 
     def __repr__(self) -> str:
         return f"<ewa.Image {self.size[0]}x{self.size[1]}: {', '.join(self._planes)}>"
 
-    def save(self, path: PathLike) -> None:
+    def save(self, path: PathLike, *, quality: int | None = None) -> None:
         """Write the picture: .png, .jpg (8-bit sRGB), .exr (linear floats, all planes), .pfm (linear RGB).
 
         The bytes are those that the program writes.
 
+        Parameters
+        ----------
+        path : path
+        quality : int, optional
+            Of .jpg, [0, 100], small to good; 95 where it is not given.
+
         Raises
         ------
         ArgumentError
-            The plane that the format needs (rgba8, of textures rgba; rgba) was not drawn.
+            The plane that the format needs (rgba8, of textures rgba; rgba) was not drawn; a quality of another format.
         FileError, FormatError
         """
         file = path_bytes(path)
+        if quality is not None and not file.lower().endswith((b".jpg", b".jpeg")):
+            raise ArgumentError(f"'{os.fsdecode(file)}': quality={quality}; of pictures .jpg alone has one")
         if file.lower().endswith((b".png", b".jpg", b".jpeg")):
             if self._of_floats:
-                save_image(path, self.rgba[:, :, :3] if self.opaque else self.rgba)
+                save_image(path, self.rgba[:, :, :3] if self.opaque else self.rgba, quality=quality)
                 return
             pixels = _without_alpha(self.rgba8) if self.opaque else np.ascontiguousarray(self.rgba8)
             height, width, channels = pixels.shape
             core = core_of(None)
             core.call_apart(lib.ewa_pixels_save, core.address, file, width, height, channels, pixels.ctypes.data,
-                            width * channels, keep=pixels)
+                            width * channels, ctypes.byref(_save_options(quality)), keep=pixels)
             return
         if "rgba" not in self._planes and not file.lower().endswith((b".exr", b".pfm")):
             raise ArgumentError(f"'{os.fsdecode(file)}': pictures are written to .png, .jpg, .exr and .pfm")
@@ -211,7 +222,17 @@ def _without_alpha(rgba8: Array) -> Array:
     return made
 
 
-def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None, camera: Camera | None = None) -> None:
+def _save_options(quality: int | None) -> b.ewa_image_save_options:
+    options = initialised(b.ewa_image_save_options, lib.ewa_image_save_options_init)
+    if quality is not None:
+        if not isinstance(quality, numbers.Integral) or not 0 <= quality <= 100:
+            raise ArgumentError(f"quality: {quality!r}; a whole number in [0, 100] is needed")
+        options.jpeg_quality = int(quality)
+    return options
+
+
+def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None, camera: Camera | None = None,
+               quality: int | None = None) -> None:
     """Write float pixels: .png, .jpg (sRGB from linear light), .exr or .pfm.
 
     Parameters
@@ -223,6 +244,8 @@ def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None,
         Names of the channels of .exr, comma-separated.
     camera : Camera, optional
         Written into .exr.
+    quality : int, optional
+        Of .jpg, [0, 100]; 95 where it is not given.
 
     Raises
     ------
@@ -232,7 +255,7 @@ def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None,
     array = as_contiguous(array[:, :, None] if array.ndim == 2 else array, np.float32, (None, None, None), "pixels")
     core = core_of(None)
     image = pixels_struct(array, core.address)
-    options = initialised(b.ewa_image_save_options, lib.ewa_image_save_options_init)
+    options = _save_options(quality)
     if channel_names is not None:
         options.channel_names = channel_names.encode()
     if camera is not None:

@@ -107,6 +107,18 @@ class Images(Case):
         for name in ("a.jpg", "b.JPEG"):
             image.save(self.path(name))
             self.assertGreater(ewa.compare_images(self.path(name), image).psnr_db, 30)
+        small, large = image.encode(".jpg", quality=20), image.encode(".jpg", quality=100)
+        self.assertLess(len(small), len(image.encode(".jpg")))
+        self.assertLess(len(image.encode(".jpg")), len(large))
+        self.assertEqual(image.encode(".jpg", quality=95), image.encode(".jpg"))
+        image.save(self.path("c.jpg"), quality=20)
+        with open(self.path("c.jpg"), "rb") as file:
+            self.assertEqual(file.read(), small)
+        for quality in (101, -1, 0.5):
+            with self.assertRaisesRegex(ewa.ArgumentError, "quality"):
+                image.encode(".jpg", quality=quality)  # type: ignore[arg-type]
+        with self.assertRaisesRegex(ewa.ArgumentError, r"\.jpg alone"):
+            image.save(self.path("a.png"), quality=90)
 
 
 class Colormaps(Case):

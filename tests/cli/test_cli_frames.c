@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /// Writes an ffmpeg of shell lines into the folder `name` of the scratch folder.
 static void fake_program(const char *name, const char *lines) {
@@ -66,6 +67,21 @@ TEST(test_turntable) {
     }
 }
 
+/// One picture and frames; 95 is what JPEG has where nobody says.
+TEST(test_jpeg_quality) {
+    run_done("ewa render torus.ply -o j.jpg --size 80x60 --view top && ewa render torus.ply -o j95.jpg --size 80x60 --view top --quality 95 && "
+             "ewa render torus.ply -o j20.jpg --size 80x60 --view top --quality 20 && "
+             "ewa render torus.ply -o f_%%d.jpg --turntable 3 --size 80x60 --quality 20 && ewa render torus.ply -o g_%%d.jpg --turntable 3 --size 80x60");
+    assert_true(scratch_same("j.jpg", "j95.jpg"));
+    const char *const pairs[][2] = {{"j20.jpg", "j.jpg"}, {"f_2.jpg", "g_2.jpg"}};
+    for (int i = 0; i < 2; i++) {
+        struct stat small, large;
+        assert_int_equal(stat(scratch_path(pairs[i][0]), &small), 0);
+        assert_int_equal(stat(scratch_path(pairs[i][1]), &large), 0);
+        assert_true(small.st_size > 0 && small.st_size < large.st_size);
+    }
+}
+
 TEST(test_turntable_camera) {
     // A quarter of the turn is what the camera sees from there: right-handed about up.
     run_done(
@@ -118,6 +134,8 @@ TEST(test_usage) {
         {"-o a_%d.png --path c.json --loop", "--loop needs --frames"},
         {"-o a_%d.png --path c.json --view top", "--path and --view exclude"},
         {"-o a_%d.png --turntable 4 --fps 20", "--fps"},
+        {"-o a_%d.png --turntable 4 --quality 20", "--quality|.jpg"},
+        {"-o a.jpg --quality 101", "--quality|[0, 100]"},
         {"-o a.gif --turntable 4 --quality 20", "--quality"},
         {"-o a.mp4", "--turntable or --path"},
         {"-o a.mp4 --turntable 4 --background transparent", "transparency|.webm"},

@@ -188,7 +188,7 @@ TEST_LOGGED(test_round_trip, 2) {
             int largest;
             fill_codes(codes, width, height, channels);
             assert_int_equal(ewa_pixels_save(context, scratch_path(names[n], path), width, height, channels,
-                                             codes, (size_t)width * channels),
+                                             codes, (size_t)width * channels, NULL),
                              EWA_OK);
             compare(context, path, codes, channels, &mean, &largest);
             if (mean > 1.2 || largest > 14)
@@ -218,7 +218,7 @@ TEST_LOGGED(test_over_white, 1) {
         const float light = 1 - (float)alpha / 255;
         memset(wanted, ewa_srgb8_from_linear(light), sizeof wanted);
         log->count = 0;
-        assert_int_equal(ewa_jpeg_save(context, scratch_path("white.jpg", path), 16, 16, 4, codes, 64),
+        assert_int_equal(ewa_jpeg_save(context, scratch_path("white.jpg", path), 16, 16, 4, codes, 64, NULL),
                          EWA_OK);
         assert_int_equal(log->count, alpha < 255);
         if (log->count) assert_non_null(strstr(log->text, "no transparency"));
@@ -231,23 +231,56 @@ TEST_LOGGED(test_not_written, 1) {
     char path[512];
     remove(scratch_path("never.jpg", path));
     const uint8_t codes[12] = {0};
-    assert_int_equal(ewa_jpeg_save(context, path, 2, 2, 2, codes, 6), EWA_ERROR_UNSUPPORTED);
-    assert_int_equal(ewa_jpeg_save(context, path, 2, 2, 3, codes, 5), EWA_ERROR_ARGUMENT);
-    assert_int_equal(ewa_jpeg_save(context, path, 0, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
-    assert_int_equal(ewa_jpeg_save(context, path, 65501, 1, 1, codes, 65501), EWA_ERROR_ARGUMENT);
-    assert_int_equal(ewa_pixels_save(context, NULL, 2, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
-    assert_int_equal(ewa_pixels_save(context, "picture.ppm", 2, 2, 3, codes, 6), EWA_ERROR_UNSUPPORTED);
+    assert_int_equal(ewa_jpeg_save(context, path, 2, 2, 2, codes, 6, NULL), EWA_ERROR_UNSUPPORTED);
+    assert_int_equal(ewa_jpeg_save(context, path, 2, 2, 3, codes, 5, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_jpeg_save(context, path, 0, 2, 3, codes, 6, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_jpeg_save(context, path, 65501, 1, 1, codes, 65501, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_pixels_save(context, NULL, 2, 2, 3, codes, 6, NULL), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_pixels_save(context, "picture.ppm", 2, 2, 3, codes, 6, NULL), EWA_ERROR_UNSUPPORTED);
     assert_null(fopen(path, "rb"));
-    assert_int_equal(ewa_jpeg_save(context, "/nowhere/x.jpg", 2, 2, 3, codes, 6), EWA_ERROR_IO);
+    assert_int_equal(ewa_jpeg_save(context, "/nowhere/x.jpg", 2, 2, 3, codes, 6, NULL), EWA_ERROR_IO);
     assert_non_null(strstr(log->text, "/nowhere/x.jpg"));
-    assert_int_equal(ewa_jpeg_save(context, "/dev/full", 2, 2, 3, codes, 6), EWA_ERROR_IO);
+    assert_int_equal(ewa_jpeg_save(context, "/dev/full", 2, 2, 3, codes, 6, NULL), EWA_ERROR_IO);
 }
 
 static ewa_status save_colour(ewa_context *context, void *user) {
     OWNED(check_free) uint8_t *codes = malloc(300 * 200 * 3);
     fill_codes(codes, 300, 200, 3);
-    const ewa_status status = ewa_jpeg_save(context, user, 300, 200, 3, codes, 900);
+    const ewa_status status = ewa_jpeg_save(context, user, 300, 200, 3, codes, 900, NULL);
     return status;
+}
+
+/// Lower qualities are smaller and farther off; what is out of range is refused with its name.
+TEST_LOGGED(test_quality, 1) {
+    enum { WIDTH = 160, HEIGHT = 90 };
+    uint8_t codes[WIDTH * HEIGHT * 3];
+    fill_codes(codes, WIDTH, HEIGHT, 3);
+    char path[512];
+    scratch_path("quality.jpg", path);
+    size_t last_bytes = 0, default_bytes = 0;
+    double last_off = 256;
+    assert_int_equal(ewa_jpeg_save(context, path, WIDTH, HEIGHT, 3, codes, WIDTH * 3, NULL), EWA_OK);
+    OWNED(check_free) uint8_t *by_default = scratch_read(path, &default_bytes);
+    static const uint32_t qualities[] = {0, 30, 60, 95, 100};
+    for (int k = 0; k < 5; k++) {
+        WITH_DEFAULTS(ewa_image_save_options, options);
+        options.jpeg_quality = qualities[k];
+        assert_int_equal(ewa_pixels_save(context, path, WIDTH, HEIGHT, 3, codes, WIDTH * 3, &options), EWA_OK);
+        size_t size_bytes;
+        double mean;
+        int largest;
+        OWNED(check_free) uint8_t *bytes = scratch_read(path, &size_bytes);
+        compare(context, path, codes, 3, &mean, &largest);
+        assert_true(size_bytes > last_bytes && mean < last_off);
+        last_bytes = size_bytes, last_off = mean;
+        if (qualities[k] != 95) continue;
+        assert_int_equal(size_bytes, default_bytes);
+        assert_memory_equal(bytes, by_default, size_bytes);
+    }
+    WITH_DEFAULTS(ewa_image_save_options, options);
+    options.jpeg_quality = 101;
+    assert_int_equal(ewa_jpeg_save(context, path, WIDTH, HEIGHT, 3, codes, WIDTH * 3, &options), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log->text, "jpeg_quality"));
 }
 
 TEST(test_failing_saves) {

@@ -84,9 +84,10 @@ static bool is_jpeg(const char *path) { return has_suffix(path, ".jpg") || has_s
 static bool is_png(const char *path) { return has_suffix(path, ".png") || strcmp(path, "-") == 0; }
 
 ewa_status ewa_pixels_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                           uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes) {
+                           uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes,
+                           const ewa_image_save_options *options) {
     if (!context || !path) return EWA_ERROR_ARGUMENT;
-    if (is_jpeg(path)) return ewa_jpeg_save(context, path, width_px, height_px, channel_count, pixels, stride_bytes);
+    if (is_jpeg(path)) return ewa_jpeg_save(context, path, width_px, height_px, channel_count, pixels, stride_bytes, options);
     if (is_png(path)) return ewa_png_save(context, path, width_px, height_px, channel_count, pixels, stride_bytes);
     return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the suffix is none of .png .jpg .jpeg", path);
 }
@@ -104,23 +105,9 @@ static ewa_status save_codes(const ewa_image *image, const char *path,
     if (!job.codes) return EWA_ERROR_MEMORY;
     ewa_parallel(context, quantise_rows, &job, (image->height_px - 1) / ROWS_PER_TASK + 1);
     const ewa_status status = ewa_pixels_save(context, path, image->width_px, image->height_px,
-                                              job.channel_count, job.codes, row_bytes);
+                                              job.channel_count, job.codes, row_bytes, options);
     ewa_release(context, job.codes, image->height_px, row_bytes);
     return status;
-}
-
-#define AT(member) offsetof(ewa_image_save_options, member)
-
-static const ewa_option option_rows[] = {
-    {"exr_half", EWA_OPTION_BOOL, AT(exr_half), .help = "EXR: store half floats"},
-    {"srgb_alpha_straight", EWA_OPTION_BOOL, AT(srgb_alpha_straight), .initial = true,
-     .help = "PNG, JPEG: un-premultiply before encoding"},
-};
-
-const ewa_option_table ewa_image_save_options_table = EWA_OPTION_TABLE(ewa_image_save_options, option_rows);
-
-void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size) {
-    ewa_options_init(&ewa_image_save_options_table, options, struct_size);
 }
 
 ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_image_save_options *options) {

@@ -3,6 +3,7 @@
 //
 // JPEG out through libjpeg. Its errors leave by longjmp into encode(), which owns no memory of ours.
 #include "base/base.h"
+#include "base/options.h"
 #include "ewa/io.h"
 #include "image/srgb.h"
 #include "io/file.h"
@@ -13,9 +14,7 @@
 #include <setjmp.h>
 #include <string.h>
 
-/// Of libjpeg's scale to 100: errors are below a step of 255 on the average. Colours are as fine as light, for thin
-/// lines and text of a picture's furniture.
-enum { QUALITY = 95, CHUNK_BYTES = 1 << 14, OPAQUE = 255 };
+enum { CHUNK_BYTES = 1 << 14, OPAQUE = 255 };
 
 typedef struct jpeg_writer {
     struct jpeg_compress_struct encoder; // first: the callbacks get a pointer to it
@@ -72,7 +71,7 @@ static void flatten_row(const uint8_t *from, uint32_t width_px, JSAMPLE *to) {
 
 /// Everything that may jump.
 static ewa_status encode(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                         uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes,
+                         uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes, uint32_t quality,
                          jpeg_writer *job) {
     struct jpeg_compress_struct *encoder = &job->encoder;
     if (setjmp(job->failed))
@@ -85,9 +84,10 @@ static ewa_status encode(ewa_context *context, const char *path, uint32_t width_
     encoder->input_components = channel_count == 1 ? 1 : 3;
     encoder->in_color_space = channel_count == 1 ? JCS_GRAYSCALE : JCS_RGB;
     jpeg_set_defaults(encoder);
-    jpeg_set_quality(encoder, QUALITY, TRUE);
+    jpeg_set_quality(encoder, (int)quality, TRUE);
     encoder->dct_method = JDCT_ISLOW; // the same bytes for every instruction set
     encoder->optimize_coding = TRUE;
+    // Colours are as fine as light, for thin lines and text of a picture's furniture.
     encoder->comp_info[0].h_samp_factor = encoder->comp_info[0].v_samp_factor = 1;
     jpeg_start_compress(encoder, TRUE);
     while (encoder->next_scanline < height_px) {
@@ -127,8 +127,12 @@ static ewa_status check(ewa_context *context, const char *path, uint32_t width_p
 }
 
 ewa_status ewa_jpeg_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                         uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes) {
+                         uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes,
+                         const ewa_image_save_options *options) {
     if (!context || !path || !pixels) return EWA_ERROR_ARGUMENT;
+    ewa_image_save_options chosen;
+    ewa_image_save_options_init(&chosen, sizeof chosen);
+    EWA_TRY(ewa_options_take(context, &ewa_image_save_options_table, options, &chosen));
     EWA_TRY(check(context, path, width_px, height_px, channel_count, stride_bytes));
     if (channel_count == 4 && !is_opaque(width_px, height_px, pixels, stride_bytes))
         ewa_report(context, EWA_SEVERITY_WARNING,
@@ -145,7 +149,7 @@ ewa_status ewa_jpeg_save(ewa_context *context, const char *path, uint32_t width_
     job->to.term_destination = finish_chunk;
     ewa_status status = job->row ? ewa_writer_open(context, path, &job->writer) : EWA_ERROR_MEMORY;
     if (status == EWA_OK)
-        status = encode(context, path, width_px, height_px, channel_count, pixels, stride_bytes, job);
+        status = encode(context, path, width_px, height_px, channel_count, pixels, stride_bytes, chosen.jpeg_quality, job);
     if (job->encoder.mem) jpeg_destroy_compress(&job->encoder);
     if (status == EWA_OK)
         status = ewa_writer_commit(&job->writer);

@@ -18,8 +18,9 @@ ewa_status ewa_jpeg_decode(ewa_context *context, const char *name, const uint8_t
 }
 
 ewa_status ewa_jpeg_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                         uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes) {
-    (void)width_px, (void)height_px, (void)channel_count, (void)stride_bytes;
+                         uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes,
+                         const ewa_image_save_options *options) {
+    (void)width_px, (void)height_px, (void)channel_count, (void)stride_bytes, (void)options;
     if (!context || !path || !pixels) return EWA_ERROR_ARGUMENT;
     return refuse(context, path);
 }
