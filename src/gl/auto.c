@@ -25,15 +25,20 @@ typedef struct scene_kind {
     bool lit, antialiased;
 } scene_kind;
 
+/// What was measured of a kind of frame, and what follows from it.
+typedef struct choice {
+    scene_kind kind;
+    int step;
+    double cpu_s, gl_s;
+    bool by_gl; ///< the faster is
+} choice;
+
 typedef struct auto_state {
     ewa_context *context;
     void *cpu, *gl; ///< of the back ends; gl: NULL: not opened, or gone
     ewa_buffer parts; ///< of pixels
     bool tried;     ///< whether the device has been looked for
-    scene_kind kind;
-    int step;
-    double cpu_s, gl_s;
-    bool by_gl; ///< the faster is
+    choice choices[2]; ///< of frames; of the finer one of two pictures that a frame is the mean of
     bool drew_by_gl;
     char remark[160];
 } auto_state;
@@ -54,7 +59,7 @@ static ewa_status create(ewa_context *context, void **state) {
 static void drop_gl(auto_state *both) {
     if (both->gl) ewa_backend_gl.destroy(both->context, both->gl);
     both->gl = NULL;
-    both->by_gl = false;
+    for (int i = 0; i < 2; i++) both->choices[i].by_gl = false;
 }
 
 static void destroy(ewa_context *context, void *state) {
@@ -116,7 +121,7 @@ static bool needs_one(const ewa_render_job *job) {
 }
 
 /// Draws by the device; false: the frame is still to be drawn, and `*status` is EWA_OK unless the call is to end.
-static bool draw_by_gl(auto_state *both, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats,
+static bool draw_by_gl(auto_state *both, choice *now, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats,
                        ewa_status *status) {
     ewa_failures_soften(both->context, true);
     *status = finer > 1 ? ewa_backend_gl.draw_parts(both->gl, job, finer, stats) : ewa_backend_gl.draw(both->gl, job, stats);
@@ -129,20 +134,20 @@ static bool draw_by_gl(auto_state *both, const ewa_render_job *job, uint32_t fin
     ewa_report(both->context, EWA_SEVERITY_WARNING, "renderer: %s; the CPU draws %s", both->remark,
                fits_not ? "this scene" : "from here on");
     if (!fits_not) drop_gl(both);
-    both->step = DECIDED;
-    both->by_gl = false;
+    now->step = DECIDED;
+    now->by_gl = false;
     *status = EWA_OK;
     return false;
 }
 
 /// Notes what a frame took, and decides after the last.
-static void learn(auto_state *both, double took_s) {
-    if (both->step == DECIDED) return;
-    *(both->drew_by_gl ? &both->gl_s : &both->cpu_s) = took_s;
-    if (++both->step != DECIDED) return;
-    both->by_gl = both->gl_s < both->cpu_s || ewa_gl_tuning_is("auto", "gl");
-    ewa_format(both->remark, sizeof both->remark, "frames took %.3g ms by the CPU, %.3g ms by the device",
-             1e3 * both->cpu_s, 1e3 * both->gl_s);
+static void learn(auto_state *both, choice *now, double took_s) {
+    if (now->step == DECIDED) return;
+    *(both->drew_by_gl ? &now->gl_s : &now->cpu_s) = took_s;
+    if (++now->step != DECIDED) return;
+    now->by_gl = now->gl_s < now->cpu_s || ewa_gl_tuning_is("auto", "gl");
+    ewa_format(both->remark, sizeof both->remark, "frames took %.3g ms by the CPU, %.3g ms by the device", 1e3 * now->cpu_s,
+               1e3 * now->gl_s);
 }
 
 static ewa_status draw_by_cpu(auto_state *both, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
@@ -155,21 +160,18 @@ static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t fi
     auto_state *both = state;
     const double start_s = ewa_now_s();
     const scene_kind kind = kind_of(job, finer);
-    if (is_other(&kind, &both->kind)) {
-        both->kind = kind;
-        both->step = both->tried && !both->gl ? DECIDED : FIRST;
-        both->by_gl = false;
-    }
-    if (both->step == WARM_UP && !both->tried) open_gl(both);
-    if (!both->gl && both->step > FIRST) both->step = DECIDED;
-    const bool wanted = both->step == WARM_UP || both->step == MEASURE_GL || both->by_gl;
+    choice *now = &both->choices[finer > job->parts.count];
+    if (is_other(&kind, &now->kind)) *now = (choice){.kind = kind, .step = both->tried && !both->gl ? DECIDED : FIRST};
+    if (now->step == WARM_UP && !both->tried) open_gl(both);
+    if (!both->gl && now->step > FIRST) now->step = DECIDED;
+    const bool wanted = now->step == WARM_UP || now->step == MEASURE_GL || now->by_gl;
     both->drew_by_gl = wanted && both->gl && !needs_one(job);
     ewa_status status = EWA_OK;
-    if (!both->drew_by_gl || !draw_by_gl(both, job, finer, stats, &status)) {
+    if (!both->drew_by_gl || !draw_by_gl(both, now, job, finer, stats, &status)) {
         both->drew_by_gl = false;
         status = draw_by_cpu(both, job, finer, stats);
     }
-    if (status == EWA_OK && !needs_one(job)) learn(both, ewa_now_s() - start_s);
+    if (status == EWA_OK && !needs_one(job)) learn(both, now, ewa_now_s() - start_s);
     return status;
 }
 

@@ -113,7 +113,7 @@ static void test_both_draw(void **state) {
         draw_same(renderer, 1);
         assert_string_equal(gpu_backend(renderer), wanted[i]);
     }
-    at.options.supersampling = 1;
+    at.options.supersampling = 0;
     draw_same(renderer, 4);
     gpu_scene_resize(&at, 2 * WIDTH_PX, 2 * HEIGHT_PX);
     draw_same(renderer, 1);
@@ -128,6 +128,35 @@ static void test_both_draw(void **state) {
     ewa_gpu_info info = {.struct_size = sizeof info};
     assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
     if (info.software) assert_string_equal(gpu_backend(renderer), "cpu");
+}
+
+/// A frame that is the mean of two pictures decides for each of them: both are drawn by the device in the end.
+static void test_means_of_two(void **state) {
+    enum { FRAME_BYTES = 4 * WIDTH_PX * HEIGHT_PX };
+    static uint8_t fixed[FRAME_BYTES];
+    tune("software=1 auto=gl");
+    const ewa_camera before = at.camera;
+    OWNED(ewa_renderer_destroy) ewa_renderer *cpu = make(EWA_BACKEND_CPU), *both = make(EWA_BACKEND_AUTO);
+    int found = 0;
+    for (int step = 0; step < 60 && !found; step++) {
+        at.camera.fx_px *= 0.96, at.camera.fy_px *= 0.96;
+        bool mixed = true;
+        for (at.options.supersampling = 1; at.options.supersampling <= 4; at.options.supersampling *= 2) {
+            assert_int_equal(gpu_scene_draw(&at, cpu, fixed), EWA_OK);
+            const uint32_t parts = at.options.supersampling;
+            at.options.supersampling = 0;
+            assert_int_equal(gpu_scene_draw(&at, cpu, rgba8), EWA_OK);
+            at.options.supersampling = parts;
+            mixed = mixed && memcmp(fixed, rgba8, FRAME_BYTES) != 0;
+        }
+        found = mixed;
+    }
+    assert_true(found);
+    at.options.supersampling = 0;
+    draw_same(both, 5);
+    assert_string_equal(gpu_backend(both), "gl");
+    at.options.supersampling = 0;
+    at.camera = before;
 }
 
 /// The device ends in one of the waits of a frame; whichever it is, nothing is missing from the picture.
@@ -213,6 +242,7 @@ int main(void) {
     };
     const struct CMUnitTest with_device[] = {
         cmocka_unit_test(test_software_is_not_taken), cmocka_unit_test(test_both_draw),
+        cmocka_unit_test(test_means_of_two),
         cmocka_unit_test(test_device_goes),           cmocka_unit_test(test_little_memory),
         cmocka_unit_test(test_small_limits),
     };
