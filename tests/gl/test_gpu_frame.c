@@ -113,6 +113,25 @@ TEST(test_near) {
     }
 }
 
+/// Rows that did not fit the device are remembered: the next frame tries no others, and nobody is told again.
+TEST(test_memory) {
+    OWNED(gpu_scene_free) gpu_scene at;
+    gpu_scene_make(&at, POINTS, GPU_MAX_PX, GPU_MAX_PX);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
+    assert_int_equal(setenv("EWA_GL_TUNING", "storage=9000000", 1), 0);
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    assert_int_equal(unsetenv("EWA_GL_TUNING"), 0);
+    assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+    const int told = at.log.count;
+    assert_true(told > 0);
+    for (int frame = 0; frame < 2; frame++) assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+    assert_int_equal(at.log.count, told);
+    assert_true(gpu_scene_same(&at, rgba8));
+    const uint32_t bands = info_of(renderer).wait_count;
+    assert_in_range(bands, 2, GPU_MAX_PX / 128);
+    assert_true(info_of(renderer).dispatch_count <= 12 * bands);
+}
+
 TEST(test_times) {
     OWNED(gpu_scene_free) gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
