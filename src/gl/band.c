@@ -361,10 +361,10 @@ static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outco
 }
 
 /// How many dispatches keep each below what a system's watchdog waits for, by what the last frame took; software has none.
-static uint32_t count_parts(const ewa_gl_compute *gl, double longest_s) {
+static uint32_t count_parts(const ewa_gl_compute *gl) {
     enum { MAX_PARTS = 256 };
     static const double PART_S = 0.05;
-    const double parts = gl->device->facts.software ? 0 : longest_s / PART_S;
+    const double parts = gl->watched ? gl->surfel_s * (double)gl->device->surfel_count / PART_S : 0;
     const uint32_t wanted = 1 + (uint32_t)(parts < MAX_PARTS ? parts : MAX_PARTS);
     return wanted > gl->min_parts ? wanted : gl->min_parts;
 }
@@ -372,7 +372,7 @@ static uint32_t count_parts(const ewa_gl_compute *gl, double longest_s) {
 /// Draws the band once; `*again`: there was too little room for it, or it lacked what the host makes.
 static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome, bool *again) {
     b->has_host_records = gl->needs_host;
-    b->parts = count_parts(gl, gl->longest_s);
+    b->parts = count_parts(gl);
     EWA_TRY(reserve_work(gl, b));
     EWA_TRY(reserve_planes(gl, b));
     EWA_TRY(put_band(gl, b));

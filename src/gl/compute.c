@@ -58,6 +58,13 @@ ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict) {
     return status;
 }
 
+/// What is thought of a device before its first frame: as slow as a small one that shares the processor's memory.
+static void set_pace(ewa_gl_compute *gl) {
+    enum { SURFEL_NS = 100 };
+    gl->watched = !gl->device->facts.software || ewa_gl_tuning("surfel_ns", 0);
+    gl->surfel_s = 1e-9 * (double)ewa_gl_tuning("surfel_ns", SURFEL_NS);
+}
+
 ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     ewa_gl_compute *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
@@ -71,6 +78,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     made->residents.kept_bytes = ewa_gl_tuning("kept", 0);
     ewa_status status = ewa_gl_open(context, &made->device);
     if (status == EWA_OK) status = ewa_gl_try(made->device, &made->verdict);
+    if (status == EWA_OK) set_pace(made);
     made->variants.arithmetic = made->verdict.arithmetic;
     if (status != EWA_OK) {
         ewa_gl_compute_destroy(context, made);
@@ -226,7 +234,8 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     ewa_job_finish(gl->context, &gl->room, frame, outcome.broken);
     *stats = (ewa_render_stats){0};
     ewa_gl_times_tell(&gl->times, stats);
-    gl->longest_s = fmax(fmax(stats->visibility_s, stats->accumulate_s), stats->edge_s);
+    const double longest_s = fmax(fmax(stats->visibility_s, stats->accumulate_s), stats->edge_s);
+    if (gl->device->surfel_count) gl->surfel_s = longest_s / (double)gl->device->surfel_count;
     ewa_job_count(&job, 0, stats);
     uint64_t packets = 0;
     for (uint32_t i = 0; i < job.source_count; i++) packets += job.sources[i].surfels->packet_count;

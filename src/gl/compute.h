@@ -87,7 +87,8 @@ typedef struct ewa_gl_compute {
     ewa_buffer segments, uses;             ///< of the frame: ewa_gl_segment, ewa_gl_page_use
     uint32_t use_count;
     uint64_t environment_serial;           ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
-    double longest_s; ///< the longest stage of the frame before
+    double surfel_s; ///< that the longest stage takes for each surfel, by the frame before
+    bool watched;    ///< the system ends programs that take long
     bool needs_host;  ///< the last band asked the host for something: the next is likely to
     bool unfinished; ///< a band ended early: its sums are not back at their start
     uint32_t tile_px, unit_splats, min_parts;
