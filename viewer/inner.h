@@ -468,7 +468,8 @@ void viewer_scene(const viewer *v, paint_scene *scene);
 // overlay.c
 /// Whether something is shown in colours that the colour bar tells.
 bool overlay_has_color_bar(const viewer *v);
-/// Draws furniture in an ink, and marks, over a picture of a camera.
-void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
+/// Draws furniture in an ink, and marks, over a picture of a camera. What is `saved` has furniture of the size that `ewa render` gives it, and no
+/// boxes to be dragged.
+void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, bool saved, uint8_t *rgba8);
 
 #endif

@@ -193,14 +193,14 @@ static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CL
     }
 }
 
-void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8) {
+void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, bool saved, uint8_t *rgba8) {
     const overlay o = {{rgba8, camera->width_px, camera->height_px},
                        camera,
                        v->scale * camera->height_px / v->camera.height_px};
-    if (v->cutaway.box) draw_box(&o, v);
+    if (v->cutaway.box && !saved) draw_box(&o, v);
     size_t held;
     double low[3], high[3];
-    if (transform_find(v, &held, low, high)) draw_edges(&o, low, high, v->transform.by, EDGE);
+    if (!saved && transform_find(v, &held, low, high)) draw_edges(&o, low, high, v->transform.by, EDGE);
     if (v->profile.shown) draw_profile_wall(&o, v);
     draw_selection(&o, v);
     for (size_t i = 0; i < v->measure_count; i++) draw_measure(&o, v, &v->measure_list[i]);
@@ -213,7 +213,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgb
     if (furniture.color_bar) set_color_bar(v, categories, &furniture);
     const double depth = navigate_depth(camera, v->pivot_world);
     furniture.scale_depth_world = depth > 0 && depth < 1e30 ? depth : 0;
-    furniture.pixel_scale = fmin(o.scale, 100);
+    furniture.pixel_scale = saved ? 0 : fmin(o.scale, 100);
     ewa_furniture_draw(v->probe.context, camera, &furniture, &o.canvas);
     if (v->profile.shown) profile_draw(v, &o.canvas, o.scale);
 }

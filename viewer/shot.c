@@ -28,7 +28,7 @@ static ewa_status draw_scene(viewer *v, paint_scene *scene, const ewa_camera *ca
     scene->options.lod.load_s = v->lod.load_s; // time is the window's matter: all is read that the picture needs
     scene->camera = *camera;
     const ewa_status status = paint_scene_draw(&v->probe, scene, &(ewa_frame){.rgba8 = rgba8}, NULL);
-    if (status == EWA_OK) overlay_draw(v, &scene->camera, ink, rgba8);
+    if (status == EWA_OK) overlay_draw(v, &scene->camera, ink, true, rgba8);
     return status;
 }
 

@@ -461,7 +461,7 @@ static void compose(viewer *v, const paint_result *newest) {
         v->composed_bytes = wanted;
     }
     memcpy(v->composed, newest->rgba8, wanted);
-    overlay_draw(v, &newest->camera, v->furniture.ink, v->composed);
+    overlay_draw(v, &newest->camera, v->furniture.ink, false, v->composed);
     v->composed_ticket = ticket;
     v->composed_drawn = newest->drawn_count;
     v->composed_marks = v->marks;

@@ -8,7 +8,7 @@
 #include "cli/input/inputs.h"
 #include "cli/input/scene_input.h"
 #include "cli/page/page_html.h"
-#include "cli/render/view.h"
+#include "cli/render/look.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -16,11 +16,10 @@
 #include <unistd.h>
 
 typedef struct page_arguments {
-    view_arguments view; // first: it begins with the common arguments
+    frames_arguments frames; // first; the camera's options of it are taken, there are no frames
+    look_arguments look;     // second
     const char *output, *folder, *title, *assets;
     bool small;
-    coloring_arguments coloring;
-    option_color background;
 } page_arguments;
 
 #define AT(member) offsetof(page_arguments, member)
@@ -39,36 +38,32 @@ static const cli_option output_table[] = {
      .absent = "auto: as installed"},
 };
 
-static const cli_option look_table[] = {
-    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP, .aliases = "background-color"},
-    COLORING_OPTIONS(AT(coloring)),
-};
+_Static_assert(offsetof(page_arguments, look) == LOOK_OFFSET, "the look's tables say so");
 
 static void set_defaults(void *data) {
     page_arguments *arguments = data;
-    view_set_defaults(&arguments->view);
-    arguments->coloring.colormap = EWA_COLORING_AUTO - 1;
-    arguments->background = (option_color){{1, 1, 1, 1}};
+    view_set_defaults(&arguments->frames.view);
+    look_set_defaults(&arguments->look);
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const page_arguments *arguments = data;
     const bool has_output = arguments->output || arguments->folder;
-    return options_fine(has_output ? NULL : "page: no output; say -o FILE.html, or --folder DIR", message) &&
-           view_check(&arguments->view, false, message);
+    return options_fine(has_output ? NULL : "page: no output; say -o FILE.html, or --folder DIR", message) && look_check(&arguments->look, NULL, message) &&
+           view_check(&arguments->frames.view, false, message);
 }
 
 /// Checks the operands as `ewa render` would read them, and finds the camera that is asked for. False after reporting.
 static bool look(cli_session *session, const page_arguments *arguments, const page_choice *choice, ewa_camera *camera,
                  bool *has_camera) {
     ewa_scene *scene = NULL;
-    *has_camera = view_is_placed(&arguments->view);
+    *has_camera = view_is_placed(&arguments->frames.view);
     bool done = session_passed(session, ewa_scene_create(session->context, choice->options, &scene)) &&
                 scene_input_add(session, choice->count, choice->paths, choice->assets, choice->coloring, scene);
     if (done && !ewa_coloring_is_own(choice->coloring->attribute)) done = session_passed(session, ewa_scene_commit(scene)); // finds it
     const view_subject subject = {.scene = scene};
     if (done && *has_camera)
-        done = view_make(session, &arguments->view, &subject, camera, NULL);
+        done = view_make(session, &arguments->frames.view, &subject, camera, NULL);
     else if (done)
         *has_camera = ewa_scene_get_camera(scene, camera);
     ewa_scene_destroy(&scene);
@@ -138,7 +133,7 @@ static bool make(cli_session *session, const page_arguments *arguments, const pa
                  page_data *data) {
     const char *path = choice->paths[0], *name = path_file_name(path);
     const page_words words = {.title = arguments->title ? arguments->title : *name ? name : path,
-                              .color_bar = arguments->coloring.color_by && !ewa_coloring_is_own(arguments->coloring.color_by)};
+                              .color_bar = arguments->look.coloring.color_by && !ewa_coloring_is_own(arguments->look.coloring.color_by)};
     if (!make_folder(session, arguments, data) || !page_data_make(session, choice, data)) return false;
     return arguments->folder ? put_program(session, assets, data, &words) && show_folder(session, arguments->folder, data)
                              : write_single(session, arguments, assets, data, &words);
@@ -146,15 +141,15 @@ static bool make(cli_session *session, const page_arguments *arguments, const pa
 
 static int run(const void *data) {
     const page_arguments *arguments = data;
-    const common_arguments *common = &arguments->view.common;
+    const common_arguments *common = &arguments->frames.view.common;
     cli_session session;
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
-    option_color_linear(&arguments->background, options.render.background);
-    const ewa_asset_options of_assets = scene_input_asset_options(&session);
+    const light_objects none = {.material_count = 0};
+    const ewa_scene_options options = look_scene_options(&arguments->look, &none);
+    ewa_asset_options of_assets = scene_input_asset_options(&session);
+    look_set_asset_options(&arguments->look, &of_assets);
     ewa_coloring coloring;
-    scene_input_coloring(&arguments->coloring, &coloring);
+    scene_input_coloring(&arguments->look.coloring, &coloring);
     page_choice choice = {.paths = common->operands,
                           .count = common->operand_count,
                           .assets = &of_assets,
@@ -179,15 +174,14 @@ static int run(const void *data) {
 }
 
 static const option_group output_options = OPTION_GROUP("Output", output_table);
-static const option_group look_options = OPTION_GROUP("Look", look_table);
 const cli_command page_command = {
     .name = "page",
     .operands = "IN... -o OUT.html",
     .summary = "make a page for a browser, with the viewer and the data in it",
     .details = "The page shows what 'ewa render' would, turns, zooms, picks and measures, on the processor, also on a phone. It is one file "
                "that opens without a server and asks no other site for anything. Files go into it as they are; other formats of points "
-               "become PLY, meshes points on their faces, Gaussians SPZ, volumes NRRD where a page cannot read them. A look beyond these "
-               "options is that of a scene file ('ewa render --save-scene', 'ewa view').\n"
+               "become PLY, meshes points on their faces, Gaussians SPZ, volumes NRRD where a page cannot read them. Materials and "
+               "environments are not for pages.\n"
                "\n"
                "With --folder, a web server has to send the files as they are ('ewa serve' does, to this machine); with the headers Cross-Origin-Opener-Policy: same-origin and "
                "Cross-Origin-Embedder-Policy: require-corp several threads draw, and moving is smoother.",
@@ -197,7 +191,7 @@ const cli_command page_command = {
                 "ewa page survey.laz --color-by classification --folder site\n",
     .low_operands = 1,
     .high_operands = 64,
-    .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options, &look_options, NULL},
+    .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options, LOOK_SCENE_GROUPS, NULL},
     .arguments_bytes = sizeof(page_arguments),
     .set_defaults = set_defaults,
     .check = check,

@@ -191,6 +191,14 @@ static bool put(cli_session *session, const char *path, const ewa_asset_options 
     return put_points(session, path, options, small, data, target);
 }
 
+/// Puts the file of a transfer function beside the data, if it is one, and has the options name it there. False after reporting.
+static bool put_transfer(cli_session *session, page_data *data, char target[PATH_BYTES], ewa_asset_options *options) {
+    if (!options->transfer || access(options->transfer, F_OK) != 0) return true;
+    const bool done = take_name(session, data, options->transfer, NULL, target) && copy_file(session, options->transfer, target);
+    options->transfer = target;
+    return done;
+}
+
 /// Adds what was put there to the scene that the page opens.
 static bool add(cli_session *session, const char *target, const ewa_asset_options *options, const ewa_instance *instance,
                 ewa_scene *scene) {
@@ -215,10 +223,7 @@ static bool put_scene(cli_session *session, const char *path, const page_choice 
         char target[PATH_BYTES], transfer[PATH_BYTES];
         done = session_passed(session, ewa_scene_file_entry(file, i, &entry)) &&
                put(session, entry.path, &entry.asset, choice->small, data, target);
-        if (done && entry.asset.transfer && access(entry.asset.transfer, F_OK) == 0) {
-            done = take_name(session, data, entry.asset.transfer, NULL, transfer) && copy_file(session, entry.asset.transfer, transfer);
-            entry.asset.transfer = transfer;
-        }
+        done = done && put_transfer(session, data, transfer, &entry.asset);
         if (entry.instance.coloring.attribute[0] == 0 && !entry.instance.coloring.tinted) entry.instance.coloring = *choice->coloring;
         done = done && add(session, target, &entry.asset, &entry.instance, scene);
     }
@@ -227,15 +232,17 @@ static bool put_scene(cli_session *session, const char *path, const page_choice 
 }
 
 static bool put_file(cli_session *session, const char *path, const page_choice *choice, ewa_scene *scene, page_data *data) {
-    char target[PATH_BYTES];
+    char target[PATH_BYTES], transfer[PATH_BYTES];
     ewa_instance instance;
     ewa_instance_init(&instance, sizeof instance);
+    ewa_asset_options options = *choice->assets;
     ewa_asset_kind kind;
-    if (!put(session, path, choice->assets, choice->small, data, target) ||
-        !session_passed(session, ewa_asset_probe(session->context, target, choice->assets, &kind)))
+    if (!put(session, path, &options, choice->small, data, target) ||
+        !session_passed(session, ewa_asset_probe(session->context, target, &options, &kind)) ||
+        (kind == EWA_ASSET_VOLUME && !put_transfer(session, data, transfer, &options)))
         return false;
     if (kind != EWA_ASSET_GAUSSIANS && kind != EWA_ASSET_VOLUME) instance.coloring = *choice->coloring;
-    return add(session, target, choice->assets, &instance, scene);
+    return add(session, target, &options, &instance, scene);
 }
 
 bool page_data_make(cli_session *session, const page_choice *choice, page_data *data) {

@@ -21,16 +21,20 @@ static const cli_option light_table[] = {
              "0,0,0,r,g,b is a headlight of that colour",
      .low = 3, .high = 6, .absent = "auto: from above left of the eye where nothing has colours, else headlight"},
     {"ambient", RENDER(ambient)},
+    {"edl", RENDER(eye_dome)},
+};
+
+static const cli_option object_table[] = {
     {"materials", OPTION_TEXT, AT(materials_path), "FILE",
      .help = "JSON table of materials (ambient, diffuse, specular, shininess, reflection), by the points' "
              "property material"},
     {"env", OPTION_TEXT, AT(environment_path), "FILE",
      .help = "surroundings that surfaces mirror: equirectangular .exr, .hdr, .pfm, .png or .jpg"},
     {"env-up", RENDER(environment_up), .value = "x,y,z"},
-    {"edl", RENDER(eye_dome)},
 };
 
-const option_group light_options = OPTION_GROUP("Light", light_table);
+const option_group light_options = OPTION_GROUP("Light", light_table),
+                   light_object_options = OPTION_GROUP("Materials and surroundings", object_table);
 
 void light_set_defaults(light_arguments *arguments) {
     ewa_render_options_init(&arguments->render, sizeof arguments->render);

@@ -18,7 +18,8 @@ typedef struct light_arguments {
 /// Where a command's arguments have them: right after the frames_arguments that they begin with.
 enum { LIGHT_OFFSET = sizeof(frames_arguments) };
 
-extern const option_group light_options;
+/// Light alone, as scene files have it, and what has files of its own.
+extern const option_group light_options, light_object_options;
 
 /// The objects that options refer to.
 typedef struct light_objects {

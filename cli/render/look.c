@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// How a scene is shown: the options that `ewa render` and `ewa view` both take, in one table.
+// How a scene is shown: the options that `ewa render`, `ewa view` and `ewa page` take, in one table.
 #include "cli/render/look.h"
 #include "cli/render/gaussians.h"
 

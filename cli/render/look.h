@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// How a scene is shown: the options that `ewa render` and `ewa view` both take, in one table.
+// How a scene is shown: the options that `ewa render`, `ewa view` and `ewa page` take, in one table.
 #ifndef EWA_CLI_RENDER_LOOK_H
 #define EWA_CLI_RENDER_LOOK_H
 
@@ -33,9 +33,9 @@ enum { LOOK_OFFSET = sizeof(frames_arguments) };
 
 extern const option_group look_splats, look_octrees, look_gaussians, look_volumes, look_sections, look_colors, look_furniture;
 
-/// The groups of a command that has look_arguments at LOOK_OFFSET.
-#define LOOK_GROUPS                                                                                                    \
-    &look_splats, &look_octrees, &look_gaussians, &look_volumes, &look_sections, &light_options, &look_colors, &look_furniture
+/// The groups of a command that has look_arguments at LOOK_OFFSET: what a scene file holds, and with what stands over pictures.
+#define LOOK_SCENE_GROUPS &look_splats, &look_octrees, &look_gaussians, &look_volumes, &look_sections, &light_options, &look_colors
+#define LOOK_GROUPS       LOOK_SCENE_GROUPS, &light_object_options, &look_furniture
 
 void look_set_defaults(look_arguments *arguments);
 

@@ -59,8 +59,8 @@ typedef struct ewa_cloud_invalid_points {
 /// Counts the invalid points of a cloud. Any thread.
 EWA_API void ewa_cloud_count_invalid_points(const ewa_cloud *cloud, ewa_cloud_invalid_points *counts);
 
-/// Warns which points of a cloud are left out of its surfels and why, and which colours are not the file's. Errors:
-/// EWA_ERROR_FORMAT (none can be drawn).
+/// Warns which points of a cloud are left out of its surfels and why, which colours are not the file's, and of float colours that are more
+/// than white in the mean, as those that count to 255 are. Errors: EWA_ERROR_FORMAT (none can be drawn).
 EWA_API ewa_status ewa_cloud_report_invalid_points(const ewa_cloud *cloud, const ewa_surfels_info *surfels);
 
 #ifdef __cplusplus

@@ -194,12 +194,35 @@ static bool at_one_place(const ewa_cloud *cloud, double place_world[3]) {
     return memcmp(box.low_world, box.high_world, sizeof box.low_world) == 0;
 }
 
+/// Warns of float colours that are more than white in the mean: surfaces reflect no more than falls on them, so that they count otherwise.
+static void check_bright(const ewa_cloud *cloud, const ewa_attribute *color) {
+    const uint64_t point_count = ewa_cloud_point_count(cloud);
+    const uint32_t components = color->component_count;
+    double sum = 0, number_count = 0, largest = 0, block[MAX_COMPONENTS * BLOCK_POINTS];
+    if (components > MAX_COMPONENTS) return;
+    for (uint64_t first = 0; first < point_count; first += BLOCK_POINTS) {
+        const uint64_t count = point_count - first < BLOCK_POINTS ? point_count - first : BLOCK_POINTS;
+        ewa_attribute_read_f64(color, first, count, block);
+        for (uint64_t i = 0; i < components * count; i++) {
+            if (!isfinite(block[i]) || i % components == 3) continue; // alpha
+            sum += block[i], number_count++;
+            largest = fmax(largest, block[i]);
+        }
+    }
+    if (sum > number_count)
+        ewa_report(ewa_cloud_context(cloud), EWA_SEVERITY_WARNING,
+                   "colours are floats of up to %.6g and count as linear light, of which 1 is white; those that go to 255 belong into unsigned bytes",
+                   largest);
+}
+
 ewa_status ewa_cloud_report_invalid_points(const ewa_cloud *cloud, const ewa_surfels_info *surfels) {
     if (!cloud || !surfels) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(cloud);
     const unsigned long long all = ewa_cloud_point_count(cloud), left_out = surfels->left_out_count;
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
-    if (!left_out && !(color && (color->type == EWA_F32 || color->type == EWA_F64))) return EWA_OK;
+    const bool color_is_float = color && (color->type == EWA_F32 || color->type == EWA_F64);
+    if (!left_out && !color_is_float) return EWA_OK;
+    if (color_is_float) check_bright(cloud, color);
     ewa_cloud_invalid_points invalid;
     ewa_cloud_count_invalid_points(cloud, &invalid);
     char why[400];

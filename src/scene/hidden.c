@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What regions leave of Gaussians and volumes: parts of what is resident, for pictures, and of the files, for what is written.
-// A Gaussian and a voxel are where their centres are; they are of no class.
+// A Gaussian and a voxel are where their centres are; voxels are of no class.
 #include "base/base.h"
 #include "ewa/gaussian_io.h"
 #include "ewa/io.h"
@@ -23,15 +23,15 @@ void ewa_left_part_release(ewa_left_part **given) {
     ewa_release(part->context, part, 1, sizeof *part);
 }
 
-static bool is_left(const void *user, const double place_world[3]) {
+static bool is_left(const void *user, const double place_world[3], int32_t code) {
     const ewa_scene_options *options = user;
-    return ewa_regions_keep_place(options->regions, options->region_count, place_world, -1);
+    return ewa_regions_keep_place(options->regions, options->region_count, place_world, code);
 }
 
 /// Whether a place is also not cut away.
-static bool is_shown(const void *user, const double place_world[3]) {
+static bool is_shown(const void *user, const double place_world[3], int32_t code) {
     const ewa_scene_options *options = user;
-    return ewa_sections_keep(&options->render, place_world) && is_left(user, place_world);
+    return ewa_sections_keep(&options->render, place_world) && is_left(user, place_world, code);
 }
 
 bool ewa_left_part_is_of(const ewa_left_part *part, const ewa_scene_options *options) {
@@ -76,9 +76,9 @@ typedef struct center_list {
     double *places_world;
 } center_list;
 
-static void take_center(void *user, const double place_world[3]) {
+static void take_center(void *user, const double place_world[3], int32_t code) {
     center_list *list = user;
-    if (!is_shown(list->options, place_world)) return;
+    if (!is_shown(list->options, place_world, code)) return;
     if (list->step && list->count % list->step == 0) memcpy(list->places_world + 3 * list->kept++, place_world, 3 * sizeof(double));
     list->count++;
 }
@@ -146,7 +146,7 @@ ewa_status ewa_scene_gaussians(const ewa_scene *scene, ewa_gaussians *gaussians,
     for (uint32_t i = 0; i < set.count && status == EWA_OK; i++) {
         double place[3];
         for (int c = 0; c < 3; c++) place[c] = set.origin[c] + (double)set.centers[3 * (size_t)i + (size_t)c];
-        marks[i] = is_shown(&scene->options, place);
+        marks[i] = is_shown(&scene->options, place, set.classes ? set.classes[i] : -1);
     }
     if (status == EWA_OK) status = ewa_gaussians_keep(&set, marks, gaussians);
     if (status == EWA_OK && up_world) memcpy(up_world, facts.up_world, sizeof facts.up_world);
@@ -164,7 +164,7 @@ typedef struct grid_box {
 static bool is_voxel_shown(const ewa_scene *scene, const ewa_volume *volume, const uint32_t at[3]) {
     double place[3];
     vec3_store(ewa_volume_place(volume->index_to_world, at[0], at[1], at[2]), place);
-    return is_shown(&scene->options, place);
+    return is_shown(&scene->options, place, -1);
 }
 
 static grid_box find_box(const ewa_scene *scene, const ewa_volume *volume) {

@@ -18,6 +18,10 @@ static void splat_place(const ewa_splats *splats, size_t packet, uint32_t lane, 
         place_world[c] = splats->origin_world[c] + splats->unit_world * (double)splats->packets[packet][EWA_SPLAT_PLACE + c][lane];
 }
 
+static int32_t splat_code(const ewa_splats *splats, size_t packet, uint32_t lane) {
+    return splats->classes ? splats->classes[packet][lane] : -1;
+}
+
 typedef struct splats_job {
     const ewa_splats *splats;
     ewa_place_shown *test;
@@ -34,7 +38,7 @@ static void show_packets(void *data, uint32_t index, uint32_t worker) {
         for (uint32_t lane = 0; lane < LANES; lane++) {
             double place[3];
             splat_place(job->splats, p, lane, place);
-            if (job->test(job->user, place)) job->lanes[p] |= (uint16_t)(1u << lane);
+            if (job->test(job->user, place, splat_code(job->splats, p, lane))) job->lanes[p] |= (uint16_t)(1u << lane);
         }
 }
 
@@ -63,7 +67,7 @@ void ewa_splats_visit(const ewa_splats *splats, ewa_place_visit *visit, void *us
         if (splats->shown_lanes && !(splats->shown_lanes[i / LANES] >> i % LANES & 1)) continue;
         double place[3];
         splat_place(splats, i / LANES, i % LANES, place);
-        visit(user, place);
+        visit(user, place, splat_code(splats, i / LANES, i % LANES));
     }
 }
 
@@ -92,7 +96,7 @@ static void show_blocks(void *data, uint32_t index, uint32_t worker) {
         for (uint64_t v = block->first; v < block->first + block->count; v++) {
             double place[3];
             voxel_place(job->from, block, v, place);
-            job->shown[v] = job->test(job->user, place);
+            job->shown[v] = job->test(job->user, place, -1);
         }
     }
 }
@@ -171,6 +175,6 @@ void ewa_voxels_visit(const ewa_voxels *voxels, ewa_place_visit *visit, void *us
         for (uint64_t v = level->blocks[b].first; v < level->blocks[b].first + level->blocks[b].count; v++) {
             double place[3];
             voxel_place(level, &level->blocks[b], v, place);
-            visit(user, place);
+            visit(user, place, -1);
         }
 }

@@ -8,8 +8,8 @@
 #include "ewa/gaussian_render.h"
 #include "ewa/volume_render.h"
 
-/// Whether a place of the world is shown; on any thread.
-typedef bool ewa_place_shown(const void *user, const double place_world[3]);
+/// Whether what is at a place of the world is shown; on any thread. `code`: its class; -1: it is of none.
+typedef bool ewa_place_shown(const void *user, const double place_world[3], int32_t code);
 
 /// Makes, by a context of the calling thread, a view of splats that shows those, of levels too, whose centres are shown; it borrows all else, and is destroyed before
 /// `splats`. Its facts are those of `splats`. Errors: EWA_ERROR_MEMORY.
@@ -22,7 +22,7 @@ ewa_status ewa_voxels_show(ewa_context *context, const ewa_voxels *voxels, ewa_p
                            ewa_voxels **part);
 
 /// Calls `visit` for the centre of every splat, or of every voxel of the finest level, that is resident and shown.
-typedef void ewa_place_visit(void *user, const double place_world[3]);
+typedef void ewa_place_visit(void *user, const double place_world[3], int32_t code);
 void ewa_splats_visit(const ewa_splats *splats, ewa_place_visit *visit, void *user);
 void ewa_voxels_visit(const ewa_voxels *voxels, ewa_place_visit *visit, void *user);
 

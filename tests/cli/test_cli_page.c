@@ -134,6 +134,25 @@ TEST(pages_show_what_is_rendered) {
     check_same_picture("narrow.json", "", true);
 }
 
+/// How things are shown is said to both alike.
+TEST(looks_come_along) {
+    (void)state;
+    run_done("ewa volume blob.nrrd -o blob.png --save-transfer look.json -q");
+    static const char *const looks[] = {
+        "torus.ply --color-by z --colormap turbo --edl 1 --background 0.1,0.2,0.3 --kernel affine --clip-plane 1,0,0,0.1 --tau 0.3",
+        "torus.ply --radius-scale 1.2 --opacity 0.5 --layers exact --cull back --light 1,1,1 --ambient 0.3",
+        "blob.nrrd --transfer look.json --opacity-scale 3 --shading none",
+        "blob.nrrd --transfer fog",
+    };
+    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
+        run_done("rm -rf site && ewa page %s --folder site --assets assets -q", looks[i]);
+        run_done("ewa render %s -o before.png --size 160x120 -q && ewa render site/scene.json -o after.png --size 160x120 -q", looks[i]);
+        run_done("ewa render %.9s -o plain.png --size 160x120 -q", looks[i]);
+        assert_true(scratch_same("before.png", "after.png") && !scratch_same("before.png", "plain.png"));
+    }
+    run_fails(2, "--env", "ewa page torus.ply --env sky.exr --folder site --assets assets");
+}
+
 TEST(cameras_come_along) {
     (void)state;
     run_done("rm -rf site && ewa page torus.ply --view top --size 160x120 --folder site --assets assets");

@@ -77,6 +77,17 @@ TEST(test_colors) {
          "ewa volume blob.nrrd -o a.png --size 32x32 --surfels colors.ply");
 }
 
+/// Floats that count to 255 are no light; a bright spot among dark ones is.
+TEST(test_bright_colors) {
+    scratch_text("byte.ply", HEAD("4") "property float red\nproperty float green\nproperty float blue\n" END
+                             "0 0 0 200 100 0\n1 0 0 3 250 20\n0 1 0 12 30 0\n1 1 0 90 0 0\n");
+    says("colours are floats of up to 250|1 is white|unsigned bytes", "ewa render byte.ply -o c.png --size 32x32");
+    scratch_text("light.ply", HEAD("4") "property float red\nproperty float green\nproperty float blue\n" END
+                              "0 0 0 6 1 0\n1 0 0 0.3 0.2 0.1\n0 1 0 0.1 0.1 0\n1 1 0 0.9 0 0\n");
+    says("light.ply", "ewa render light.ply -o c.png --size 32x32 -v");
+    assert_null(strstr(last_run.err, "is white"));
+}
+
 TEST(test_csg_names_files) {
     run_fails(1, "sheet.ply is not closed", "ewa csg ball.ply sheet.ply --op union -o a.ply");
     assert_null(strstr(last_run.err, "operand"));

@@ -409,6 +409,16 @@ TEST(test_look_is_shared) {
         *(taken ? &shared : &alone) += 1;
     }
     assert_true(shared > 70 && alone == sizeof of_pictures / sizeof of_pictures[0]);
+    // A page takes what a scene file holds: neither what has files of its own nor what stands over pictures.
+    static const char *const of_no_page[] = {"materials", "env", "env-up", "title", "axes", "scale-bar", "unit", "color-bar", "script", "timings", "window", "scale",
+                                             "backend"};
+    const cli_command *page = command_find("page");
+    for (size_t i = 0; (option = options_at(view, i)); i++) {
+        bool left_out = false, taken = false;
+        for (size_t k = 0; k < sizeof of_no_page / sizeof of_no_page[0]; k++) left_out = left_out || strcmp(option->key, of_no_page[k]) == 0;
+        for (size_t k = 0; (other = options_at(page, k)) && !taken; k++) taken = other == option;
+        if (taken == left_out) fail_msg("--%s is taken by page: %d", option->key, taken);
+    }
 }
 
 TEST(test_nearest) {

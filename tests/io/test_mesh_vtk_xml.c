@@ -329,6 +329,11 @@ CASE(test_polyhedra) {
     assert_float_equal(mesh_area(&mesh, NULL), 6, 1e-12);
     assert_int_equal(mesh.triangle_count, 12);
     ewa_mesh_free(&mesh);
+    // The same behind a byte order mark.
+    snprintf(text, sizeof text, "\xef\xbb\xbf" GRID WEDGES COUNT("faces", "%s") COUNT("faceoffsets", "24 48") TAIL, faces);
+    mesh_load_text(context, &messages, "a.vtu", text, &mesh);
+    assert_int_equal(mesh.triangle_count, 12);
+    ewa_mesh_free(&mesh);
     // Without their faces they are unknown.
     ewa_model model;
     assert_int_equal(ewa_model_load_memory(context, GRID WEDGES TAIL, strlen(GRID WEDGES TAIL), "a.vtu", NULL, EWA_MODEL_MESH,

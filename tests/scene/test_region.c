@@ -380,6 +380,41 @@ TEST(test_gaussians) {
     assert_int_equal(ewa_scene_volume(copy, &volume), EWA_ERROR_ARGUMENT);
 }
 
+/// Gaussians with classes are hidden by them, drawn, counted and written.
+TEST(test_classes_of_gaussians) {
+    (void)state;
+    static uint8_t hidden[4 * WIDTH * HEIGHT], other[4 * WIDTH * HEIGHT];
+    ewa_gaussians set, left;
+    assert_int_equal(ewa_gaussians_create(context, POINTS, 0, &set), EWA_OK);
+    assert_int_equal(ewa_gaussians_add_classes(&set), EWA_OK);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const float center[3] = {(float)(i % SIDE), (float)(i / SIDE), 0};
+        memcpy(set.centers + 3 * (size_t)i, center, sizeof center);
+        for (int c = 0; c < 3; c++) set.scales[3 * (size_t)i + (size_t)c] = 0.25f;
+        set.rotations[4 * (size_t)i] = 1;
+        set.opacities[i] = 0.75f;
+        set.classes[i] = i / SIDE < 4 ? 2 : 40;
+    }
+    assert_int_equal(ewa_gaussians_save(&set, "region_classes.ply", NULL), EWA_OK);
+    ewa_gaussians_free(&set);
+    OWNED(ewa_scene_destroy) ewa_scene *scene = open_file("region_classes.ply", NULL), *of_left = NULL;
+    const ewa_region classes = {.has_classes = true, .classes = {1u << 2}};
+    set_regions(scene, &classes, 1);
+    draw_file(scene, hidden);
+    ewa_cloud *centers = NULL;
+    uint64_t count = 0;
+    assert_int_equal(ewa_scene_centers(scene, 10, &centers, &count), EWA_OK);
+    ewa_cloud_destroy(&centers);
+    assert_int_equal(count, POINTS - 4 * SIDE);
+    assert_int_equal(ewa_scene_gaussians(scene, &left, NULL), EWA_OK);
+    assert_int_equal(left.count, POINTS - 4 * SIDE);
+    assert_int_equal(ewa_gaussians_save(&left, "region_classes_left.ply", NULL), EWA_OK);
+    ewa_gaussians_free(&left);
+    of_left = open_file("region_classes_left.ply", NULL);
+    draw_file(of_left, other);
+    assert_memory_equal(hidden, other, sizeof hidden);
+}
+
 /// A volume of 20 x 12 x 8 voxels: what is left is the grid around it, on its place, with every number; what is hidden within has one
 /// that shows nothing, and the picture of the file is that of the scene.
 TEST(test_volumes) {

@@ -69,6 +69,13 @@ look "levels.copc.laz --levels always --color-by z --lod-spacing 4 --cull back"
 look "gaussians.ply --projection exact --gaussian-display points --background black"
 look "gaussians.ply --surface --color-by x --close-gaps off --prefilter 1"
 look "volume.nrrd --transfer fog --opacity-scale 3 --shading phong"
+look "points.ply --title Sphere --axes --scale-bar --color-by z --color-bar"
+# The box that cuts is seen in the window, with its handles, and not in what is saved.
+printf 'do box -2,-2,-2,2,2,0.3\nsettle\ndo shot box.png\nshot window.png\ndo scene save box.json\n' >box.txt
+"$ewa" view points.ply --size 96x72 --script box.txt -q >/dev/null || fail "a box that cuts ends with $?"
+"$ewa" render box.json -o drawn.png -q
+cmp box.png drawn.png || fail "a picture of what a box cuts differs"
+! cmp -s window.png drawn.png || fail "the box is not seen in the window"
 said=$("$ewa" view points.ply --color-by warmth --size 96x72 --script look.txt 2>&1 >/dev/null)
 case $said in *"no attribute 'warmth'"*) ;; *) fail "an attribute that is not there: $said" ;; esac
 "$ewa" render points.ply --size 96x72 -o drawn.png -q

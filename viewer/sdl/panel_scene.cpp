@@ -18,7 +18,7 @@ void choose_colors(const panel_page *page, int index, const viewer_item *item) {
     const viewer_coloring &now = item->coloring;
     static const char own[] = "automatic", one[] = "one colour", none[] = "none";
     panel_label(page, "Colours");
-    if (!ImGui::BeginCombo("##colors", now.attribute[0] ? now.attribute : now.tinted ? one : own)) return;
+    if (!ImGui::BeginCombo("##colors", now.attribute[0] ? now.attribute : now.tinted ? one : own, ImGuiComboFlags_HeightLarge)) return;
     if (ImGui::Selectable(own, !now.attribute[0] && !now.tinted)) {
         panel_say(page, "color %d auto", index);
         panel_say(page, "tint %d none", index);
@@ -42,7 +42,7 @@ void choose_colors(const panel_page *page, int index, const viewer_item *item) {
 void choose_class(const panel_page *page, const viewer_coloring &now) {
     if (strcmp(now.attribute, "classification") != 0) return;
     panel_label(page, "Select");
-    if (!ImGui::BeginCombo("##class", "points of a class")) return;
+    if (!ImGui::BeginCombo("##class", "points of a class", ImGuiComboFlags_HeightLarge)) return;
     for (uint32_t i = 0; i < now.class_count; i++) {
         char name[VIEWER_NAME_BYTES];
         snprintf(name, sizeof name, "%.0f %s", (double)now.classes[i].value, now.classes[i].name);
@@ -61,7 +61,7 @@ void choose_map(panel_page *page, int index, const viewer_item *item) {
     char map[EWA_OPTION_TEXT_BYTES];
     ewa_option_get(maps, &coloring, map);
     panel_label(page, "Colour map");
-    if (ImGui::BeginCombo("##map", map)) {
+    if (ImGui::BeginCombo("##map", map, ImGuiComboFlags_HeightLarge)) {
         char command[VIEWER_TEXT_BYTES], kept[64] = "";
         snprintf(command, sizeof command, "color %d %s", index, now.attribute);
         if (now.ranged) snprintf(kept, sizeof kept, " %.10g,%.10g", now.range[0], now.range[1]);
@@ -134,11 +134,25 @@ bool type_numbers(panel_page *page, const char *name, const char *label, int cou
     return panel_edit_end(page, label, count, numbers, changed, false);
 }
 
+/// Characters of a number that a third of a row has room for.
+const int SHORT_NUMBER = 7;
+
 /// Where an item lies: what its coordinates are moved by, then by how much it is to be turned about what is up, or resized.
 void choose_place(panel_page *page, int index, const viewer_item *item) {
     const double *m = item->to_world;
     double moved[3] = {m[3], m[7], m[11]}, angle_deg = 0, factor = 1;
-    if (type_numbers(page, "Moved by", "##moved", 3, moved, "%.10g"))
+    // Numbers that three fields side by side would cut stand below each other.
+    static const char *const labels[] = {"##moved x", "##moved y", "##moved z"};
+    int longest = 0;
+    for (double number : moved) {
+        const int length = snprintf(nullptr, 0, "%.10g", number);
+        if (length > longest) longest = length;
+    }
+    bool moves = false;
+    if (longest <= SHORT_NUMBER) moves = type_numbers(page, "Moved by", "##moved", 3, moved, "%.10g");
+    for (int c = 0; c < 3 && longest > SHORT_NUMBER; c++)
+        if (type_numbers(page, c ? "" : "Moved by", labels[c], 1, &moved[c], "%.10g")) moves = true;
+    if (moves)
         panel_say(page, "move %d %.17g,%.17g,%.17g", index, moved[0] - m[3], moved[1] - m[7], moved[2] - m[11]);
     if (type_numbers(page, "Turn by", "##turned", 1, &angle_deg, "%.6g deg")) panel_say(page, "rotate %d %.17g", index, angle_deg);
     if (type_numbers(page, "Resize by", "##resized", 1, &factor, "%.6g")) panel_say(page, "scale %d %.17g", index, factor);

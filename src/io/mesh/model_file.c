@@ -11,6 +11,7 @@
 #include "io/foreign.h"
 #include "io/image/image_file.h"
 #include "io/mesh/formats.h"
+#include "io/reader.h"
 
 typedef ewa_status read_format(ewa_mesh_build *build);
 
@@ -33,6 +34,17 @@ static ewa_status read_other(const ewa_mesh_source *source, read_format *read, u
     if (status == EWA_OK) status = take_build(&build, wanted, model);
     ewa_mesh_build_close(&build);
     return status;
+}
+
+/// Reads one of VTK's files, perhaps behind a byte order mark.
+static ewa_status read_vtk(ewa_mesh_source source, uint32_t wanted, ewa_model *model) {
+    const uint32_t mark = ewa_bytes_mark(source.bytes, source.size_bytes);
+    source.bytes += mark, source.size_bytes -= mark;
+    return read_other(&source,
+                      ewa_mesh_is_vtk_xml(source.bytes, source.size_bytes)    ? ewa_mesh_read_vtk_xml
+                      : ewa_mesh_is_vtk_list(source.bytes, source.size_bytes) ? ewa_mesh_read_vtk_list
+                                                                              : ewa_mesh_read_vtk,
+                      wanted, model);
 }
 
 /// Makes a mesh of what a PLY file holds.
@@ -144,11 +156,7 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa
     case EWA_MODEL_OFF:
         return read_other(source, ewa_mesh_read_off, wanted, model);
     case EWA_MODEL_VTK:
-        return read_other(source,
-                          ewa_mesh_is_vtk_xml(source->bytes, source->size_bytes)    ? ewa_mesh_read_vtk_xml
-                          : ewa_mesh_is_vtk_list(source->bytes, source->size_bytes) ? ewa_mesh_read_vtk_list
-                                                                                    : ewa_mesh_read_vtk,
-                          wanted, model);
+        return read_vtk(*source, wanted, model);
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:

@@ -92,13 +92,16 @@ static size_t narrow(const uint8_t *bytes, size_t size_bytes, size_t room, char 
 ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t size_bytes) {
     if (ewa_bytes_begin(bytes, size_bytes, "ply")) return EWA_MODEL_PLY;
     if (size_bytes >= 4 && memcmp(bytes, "glTF", 4) == 0) return EWA_MODEL_GLTF;
-    if (ewa_mesh_is_vtk(bytes, size_bytes) || ewa_mesh_is_vtk_xml(bytes, size_bytes) || ewa_mesh_is_vtk_list(bytes, size_bytes))
+    const uint32_t mark = ewa_bytes_mark(bytes, size_bytes);
+    const uint8_t *marked = mark ? bytes + mark : bytes; // there may be no bytes
+    if (ewa_mesh_is_vtk(marked, size_bytes - mark) || ewa_mesh_is_vtk_xml(marked, size_bytes - mark) ||
+        ewa_mesh_is_vtk_list(marked, size_bytes - mark))
         return EWA_MODEL_VTK;
     if (is_binary_stl(bytes, size_bytes)) return EWA_MODEL_STL;
     const char *text = size_bytes ? (const char *)bytes : "";
     char letters[LOOKED_LETTERS];
     ewa_cursor cursor = {text, text + size_bytes, 1};
-    cursor.at += ewa_bytes_mark(text, size_bytes);
+    cursor.at += mark;
     if (size_bytes >= 2 && (memcmp(text, "\xfe\xff", 2) == 0 || memcmp(text, "\xff\xfe", 2) == 0))
         cursor = (ewa_cursor){letters, letters + narrow(bytes, size_bytes, sizeof letters, letters), 1};
     if (is_gltf(cursor)) return EWA_MODEL_GLTF;

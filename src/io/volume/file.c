@@ -8,6 +8,7 @@
 #include "ewa/io.h"
 #include "ewa/model.h"
 #include "io/number.h"
+#include "io/reader.h"
 
 #include <limits.h>
 #include <math.h>
@@ -58,13 +59,15 @@ bool ewa_volume_is_file(ewa_context *context, const char *path) {
 
 static ewa_status parse(const ewa_volume_input *in, const ewa_volume_load_options *options,
                         ewa_volume_header *header) {
-    const uint8_t *bytes = in->bytes;
-    const size_t size_bytes = in->size_bytes;
     if (options->dims[0] || options->dims[1] || options->dims[2]) return ewa_raw_parse(in, options, header);
-    if (ewa_nrrd_recognise(bytes, size_bytes)) return ewa_nrrd_parse(in, header);
-    if (ewa_vtk_recognise(bytes, size_bytes)) return ewa_vtk_parse(in, header);
-    if (ewa_vti_recognise(bytes, size_bytes)) return ewa_vti_parse(in, header);
-    if (ewa_meta_recognise(bytes, size_bytes)) return ewa_meta_parse(in, header);
+    // Headers that are text may stand behind a byte order mark.
+    ewa_volume_input text = *in;
+    const uint32_t mark = ewa_bytes_mark(in->bytes, in->size_bytes);
+    if (mark) text.bytes += mark, text.size_bytes -= mark;
+    if (ewa_nrrd_recognise(text.bytes, text.size_bytes)) return ewa_nrrd_parse(&text, header);
+    if (ewa_vtk_recognise(text.bytes, text.size_bytes)) return ewa_vtk_parse(&text, header);
+    if (ewa_vti_recognise(text.bytes, text.size_bytes)) return ewa_vti_parse(&text, header);
+    if (ewa_meta_recognise(text.bytes, text.size_bytes)) return ewa_meta_parse(&text, header);
     bool nifti;
     EWA_TRY(ewa_nifti_recognise(in, &nifti));
     return nifti ? ewa_nifti_parse(in, header) : ewa_raw_parse(in, options, header);
