@@ -7,6 +7,7 @@
 // inverse transpose.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "cloud/scanners.h"
 #include "ewa/cloud.h"
 
 #include <math.h>
@@ -153,6 +154,23 @@ static void move_grid(ewa_cloud *cloud, const double linear[9], const double shi
     ewa_cloud_set_grid(cloud, &grid);
 }
 
+/// Scanners go with what they saw; that of a range image which names none stood at the origin.
+static ewa_status map_scanners(ewa_cloud *cloud, const double m[16]) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    const size_t known = ewa_cloud_read_scanners(cloud, 0, NULL), count = known ? known : ewa_cloud_note(cloud, "file.organised", NULL) != NULL;
+    if (!count) return EWA_OK;
+    double(*world)[3] = ewa_allocate_zeroed(context, count, sizeof *world);
+    if (!world) return EWA_ERROR_MEMORY;
+    ewa_cloud_read_scanners(cloud, known, world);
+    for (size_t i = 0; i < count; i++) {
+        const double p[3] = {world[i][0], world[i][1], world[i][2]};
+        for (int r = 0; r < 3; r++) world[i][r] = m[4 * r] * p[0] + m[4 * r + 1] * p[1] + m[4 * r + 2] * p[2] + m[4 * r + 3];
+    }
+    const ewa_status status = ewa_cloud_write_scanners(cloud, count, (const double(*)[3])world);
+    ewa_release(context, world, count, sizeof *world);
+    return status;
+}
+
 ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]) {
     if (!cloud || !world_to_world) return EWA_ERROR_ARGUMENT;
     const double *m = world_to_world;
@@ -181,6 +199,7 @@ ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]
     EWA_TRY(scale_component(cloud, EWA_CLIP0, 1, sign));
     EWA_TRY(scale_component(cloud, EWA_CLIP1, 1, sign));
     EWA_TRY(map_borders(cloud, sided));
+    EWA_TRY(map_scanners(cloud, m));
     EWA_TRY(scale_component(cloud, EWA_RADIUS, 0, cbrt(fabs(determinant))));
     EWA_TRY(scale_component(cloud, EWA_CURVATURE, 0, 1 / cbrt(fabs(determinant))));
     double origin_world[3], moved_world[3];

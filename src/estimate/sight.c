@@ -5,56 +5,12 @@
 #include "estimate/sight.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "cloud/scanners.h"
 
 #include <math.h>
-#include <string.h>
-
-static const char *skip_space(const char *text, const char *end) {
-    while (text < end && strchr(" \t\r\n", *text)) text++;
-    return text;
-}
 
 /// A sample's half of a cell, in cells, and the least cosine between normal and way to the eye for which it is reckoned.
 static const double HALF_CELL = 0.5, STEEPEST = 0.25;
-
-/// Reads digits; returns behind them.
-static const char *read_digits(const char *text, const char *end, double *value, int *count) {
-    for (*count = 0; text < end && *text >= '0' && *text <= '9'; text++, (*count)++)
-        *value = 10 * *value + (*text - '0');
-    return text;
-}
-
-/// Reads a decimal number, in any locale, to a few units in the last place: a direction needs no more. Returns
-/// behind it, NULL if there is none.
-static const char *read_number(const char *text, const char *end, double *number) {
-    double value = 0, power = 0;
-    int whole, fraction = 0, digits = 1;
-    const bool negative = text < end && *text == '-';
-    text = read_digits(text + (negative || (text < end && *text == '+')), end, &value, &whole);
-    if (text < end && *text == '.') text = read_digits(text + 1, end, &value, &fraction);
-    if (whole + fraction == 0) return NULL;
-    if (text < end && (*text == 'e' || *text == 'E')) {
-        text++;
-        const bool below = text < end && *text == '-';
-        text = read_digits(text + (below || (text < end && *text == '+')), end, &power, &digits);
-        power = below ? -power : power;
-    }
-    *number = (negative ? -value : value) * pow(10, power - fraction);
-    return digits ? text : NULL;
-}
-
-/// Reads up to `maximum` numbers; returns how many there are, 0 if there is anything else.
-static size_t read_numbers(const char *text, size_t bytes, size_t maximum, double *numbers) {
-    const char *end = text + bytes;
-    size_t count = 0;
-    for (text = skip_space(text, end); text < end; text = skip_space(text, end), count++) {
-        double number;
-        text = read_number(text, end, &number);
-        if (!text || !isfinite(number)) return 0;
-        if (count < maximum) numbers[count] = number;
-    }
-    return count;
-}
 
 static ewa_status add_places(const ewa_cloud *cloud, const double (*world)[3], uint32_t count, sight *made) {
     made->place = ewa_allocate(ewa_cloud_context(cloud), count, sizeof *made->place);
@@ -69,22 +25,20 @@ static ewa_status add_places(const ewa_cloud *cloud, const double (*world)[3], u
 
 static ewa_status add_scanners(const ewa_cloud *cloud, sight *made) {
     ewa_context *context = ewa_cloud_context(cloud);
-    size_t bytes = 0;
-    const char *note = ewa_cloud_note(cloud, "scanners", &bytes);
     const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
-    if (!note) return EWA_OK;
-    const size_t count = read_numbers(note, bytes, 0, NULL);
-    if (!count || count % 3 || count / 3 > UINT32_MAX || (scan && scan->component_count != 1)) {
+    if (!ewa_cloud_note(cloud, "scanners", NULL)) return EWA_OK;
+    const size_t count = ewa_cloud_read_scanners(cloud, 0, NULL);
+    if (!count || count > UINT32_MAX || (scan && scan->component_count != 1)) {
         ewa_report(context, EWA_SEVERITY_WARNING,
                    "estimate: the note \"scanners\" is not three numbers per scan; it is not used");
         return EWA_OK;
     }
-    if (count > 3 && !scan) return EWA_OK;
-    double(*world)[3] = ewa_allocate(context, count / 3, sizeof *world);
+    if (count > 1 && !scan) return EWA_OK;
+    double(*world)[3] = ewa_allocate(context, count, sizeof *world);
     if (!world) return EWA_ERROR_MEMORY;
-    read_numbers(note, bytes, count, world[0]);
-    const ewa_status status = add_places(cloud, (const double(*)[3])world, (uint32_t)(count / 3), made);
-    ewa_release(context, world, count / 3, sizeof *world);
+    ewa_cloud_read_scanners(cloud, count, world);
+    const ewa_status status = add_places(cloud, (const double(*)[3])world, (uint32_t)count, made);
+    ewa_release(context, world, count, sizeof *world);
     if (scan && status == EWA_OK) made->scan = *scan;
     made->kind = SIGHT_SCANNERS;
     return status;

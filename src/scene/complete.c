@@ -5,6 +5,7 @@
 // file, so that tiles of one survey have no seams and scans of one place no two spacings.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "cloud/scanners.h"
 #include "estimate/sharp.h"
 #include "estimate/sparse.h"
 #include "ewa/framing.h"
@@ -99,12 +100,9 @@ static uint32_t mark_group(lacking *list, uint32_t *list_count, uint32_t *group_
 
 /// How many scanners a cloud knows the places of; 0: none, or not whose points are whose.
 static uint32_t scanner_count(const ewa_cloud *cloud) {
-    size_t bytes = 0;
-    const char *note = ewa_cloud_note(cloud, "scanners", &bytes);
-    const size_t count = note ? bytes / (3 * sizeof(double)) : 0;
+    const size_t count = ewa_cloud_read_scanners(cloud, 0, NULL);
     const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
-    if (!count || bytes % (3 * sizeof(double)) || count > UINT16_MAX || (scan && scan->component_count != 1))
-        return 0;
+    if (count > UINT16_MAX || (scan && scan->component_count != 1)) return 0;
     return count > 1 && !scan ? 0 : (uint32_t)count;
 }
 
@@ -116,7 +114,7 @@ static ewa_status merge_scanners(const ewa_completed *group) {
         if (!own) return EWA_OK;
         total += own;
     }
-    double *places = ewa_allocate(group->context, total, 3 * sizeof *places);
+    double(*places)[3] = ewa_allocate(group->context, total, sizeof *places);
     void *data = NULL;
     ewa_status status = places ? ewa_cloud_add(group->merged, "scan", EWA_F64, 1, &data) : EWA_ERROR_MEMORY;
     double *scans = data;
@@ -125,20 +123,18 @@ static ewa_status merge_scanners(const ewa_completed *group) {
         const ewa_cloud *cloud = group->assets[i]->cloud;
         const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
         const uint64_t count = ewa_cloud_point_count(cloud);
-        size_t bytes = 0;
-        memcpy(places + 3 * before, ewa_cloud_note(cloud, "scanners", &bytes),
-               scanner_count(cloud) * 3 * sizeof *places);
+        const uint32_t own = scanner_count(cloud);
+        ewa_cloud_read_scanners(cloud, own, places + before);
         if (scan)
             ewa_attribute_read_f64(scan, 0, count, scans);
         else
             memset(scans, 0, count * sizeof *scans);
         for (uint64_t k = 0; k < count; k++) scans[k] += before;
         scans += count;
-        before += scanner_count(cloud);
+        before += own;
     }
-    if (status == EWA_OK)
-        status = ewa_cloud_set_note(group->merged, "scanners", places, total * 3 * sizeof *places);
-    ewa_release(group->context, places, total, 3 * sizeof *places);
+    if (status == EWA_OK) status = ewa_cloud_write_scanners(group->merged, total, (const double(*)[3])places);
+    ewa_release(group->context, places, total, sizeof *places);
     return status;
 }
 

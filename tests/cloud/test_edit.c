@@ -260,6 +260,20 @@ TEST(test_transform) {
     }
 }
 
+/// Scanners go with what they saw, and so does the eye of a range image.
+TEST(test_transform_scanners) {
+    static const double m[16] = {0, -1, 0, 1000, 1, 0, 0, 2000, 0, 0, 1, 30, 0, 0, 0, 1};
+    static const char *const notes[][2] = {{"1 2 3", "998 2001 33"}, {"1 2 3\n0.5 0 -1", "998 2001 33\n1000 2000.5 29"}, {NULL, "1000 2000 30"}};
+    for (size_t i = 0; i < 3; i++) {
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = check_cloud_of(context, 1);
+        add_triple(cloud, EWA_POSITION, 1, -2, 0.5f);
+        const char *name = notes[i][0] ? "scanners" : "file.organised", *note = notes[i][0] ? notes[i][0] : "640 x 480";
+        assert_int_equal(ewa_cloud_set_note(cloud, name, note, strlen(note)), EWA_OK);
+        assert_int_equal(ewa_cloud_transform(cloud, m), EWA_OK);
+        assert_string_equal(ewa_cloud_note(cloud, "scanners", NULL), notes[i][1]);
+    }
+}
+
 TEST(test_transform_refusals) {
     OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make(2, EWA_F32, "a", EWA_U8);
     double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
