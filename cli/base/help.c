@@ -55,6 +55,29 @@ static void format_choice(const char *choices, int index, char text[TEXT_BYTES])
     snprintf(text, TEXT_BYTES, "%.*s", (int)strcspn(choices, "|"), choices);
 }
 
+/// Writes words, by the bits of a set, of "first|second|third".
+static void format_set(const char *choices, uint32_t set, char text[TEXT_BYTES]) {
+    for (int i = 0; i < 32; i++) {
+        if (!(set >> i & 1)) continue;
+        char word[TEXT_BYTES];
+        format_choice(choices, i, word);
+        const size_t used = strlen(text);
+        snprintf(text + used, TEXT_BYTES - used, "%s%.64s", used ? "," : "", word);
+    }
+}
+
+static void format_numbers(const double *values, uint32_t count, char text[TEXT_BYTES]) {
+    for (uint32_t i = 0, used = 0; i < count; i++)
+        used += (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", values[i]);
+}
+
+static void format_color(const double rgba[4], char text[TEXT_BYTES]) {
+    if (rgba[3] == 0)
+        snprintf(text, TEXT_BYTES, "transparent");
+    else
+        format_numbers(rgba, 3, text);
+}
+
 /// Writes the default of an option as it would be typed; an empty text when there is none to show.
 static void format_default(const cli_option *option, const void *defaults, char text[TEXT_BYTES]) {
     const void *member = (const char *)defaults + option->offset;
@@ -76,7 +99,8 @@ static void format_default(const cli_option *option, const void *defaults, char 
     case OPTION_BOUNDS:
     case OPTION_FRAMES:
     case OPTION_FILTER:
-        break;
+    case OPTION_VECTORS:
+        break; // none until they are given
     case OPTION_ON_OFF:
         snprintf(text, TEXT_BYTES, "%s", *(const bool *)member ? "on" : "off");
         break;
@@ -90,13 +114,7 @@ static void format_default(const cli_option *option, const void *defaults, char 
         format_choice(option->range, *(const int *)member, text);
         break;
     case OPTION_SET:
-        for (int i = 0; i < 32; i++) {
-            if (!(*(const uint32_t *)member >> i & 1)) continue;
-            char word[TEXT_BYTES];
-            format_choice(option->range, i, word);
-            const size_t used = strlen(text);
-            snprintf(text + used, TEXT_BYTES - used, "%s%.64s", used ? "," : "", word);
-        }
+        format_set(option->range, *(const uint32_t *)member, text);
         break;
     case OPTION_OUTPUT:
     case OPTION_OUTPUTS:
@@ -105,23 +123,12 @@ static void format_default(const cli_option *option, const void *defaults, char 
         if (word) snprintf(text, TEXT_BYTES, "%s", word);
         break;
     }
-    case OPTION_VECTOR: {
-        const option_vector *vector = member;
-        for (uint32_t i = 0, used = 0; i < vector->count; i++)
-            used +=
-                (uint32_t)snprintf(text + used, TEXT_BYTES - used, "%s%g", i ? "," : "", vector->values[i]);
+    case OPTION_VECTOR:
+        format_numbers(((const option_vector *)member)->values, ((const option_vector *)member)->count, text);
         break;
-    }
-    case OPTION_VECTORS: // none until they are given
+    case OPTION_COLOR:
+        format_color(((const option_color *)member)->rgba, text);
         break;
-    case OPTION_COLOR: {
-        const double *rgba = ((const option_color *)member)->rgba;
-        if (rgba[3] == 0)
-            snprintf(text, TEXT_BYTES, "transparent");
-        else
-            snprintf(text, TEXT_BYTES, "%g,%g,%g", rgba[0], rgba[1], rgba[2]);
-        break;
-    }
     case OPTION_SIZE: {
         const option_size *size = member;
         snprintf(text, TEXT_BYTES, "%" PRIu32 "x%" PRIu32, size->width_px, size->height_px);

@@ -320,6 +320,31 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
 /// Adds a line of a PLY header to a list.
 static void add_header_line(void *user, const char *line) { json_text(user, NULL, line); }
 
+static void write_attributes(json_writer *json, const ewa_cloud *cloud, uint64_t point_count) {
+    json_array(json, "attributes");
+    const ewa_attribute *attribute;
+    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
+        double low[4] = {0}, high[4] = {0};
+        uint64_t not_finite_count = 0;
+        for (uint32_t c = 0; c < attribute->component_count; c++) {
+            component_range range;
+            measure_component(attribute, point_count, c, shift_of(cloud, attribute, c), &range);
+            low[c] = range.low;
+            high[c] = range.high;
+            not_finite_count += range.not_finite_count;
+        }
+        json_object(json, NULL);
+        json_text(json, "name", attribute->name);
+        json_text(json, "type", ewa_type_name(attribute->type));
+        json_count(json, "components", attribute->component_count);
+        json_vector(json, "low", attribute->component_count, low);
+        json_vector(json, "high", attribute->component_count, high);
+        json_count(json, "not_finite", not_finite_count);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
 static void print_json(cli_session *session, json_writer *json, const char *path, const ewa_cloud *cloud,
                        const cloud_facts *facts) {
     json_object(json, NULL);
@@ -348,28 +373,7 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     json_count(json, "sampled_points", facts->sampled_count);
     json_count(json, "duplicates", facts->spacing.duplicate_count);
     json_close(json, '}');
-    json_array(json, "attributes");
-    const ewa_attribute *attribute;
-    for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
-        double low[4] = {0}, high[4] = {0};
-        uint64_t not_finite_count = 0;
-        for (uint32_t c = 0; c < attribute->component_count; c++) {
-            component_range range;
-            measure_component(attribute, facts->point_count, c, shift_of(cloud, attribute, c), &range);
-            low[c] = range.low;
-            high[c] = range.high;
-            not_finite_count += range.not_finite_count;
-        }
-        json_object(json, NULL);
-        json_text(json, "name", attribute->name);
-        json_text(json, "type", ewa_type_name(attribute->type));
-        json_count(json, "components", attribute->component_count);
-        json_vector(json, "low", attribute->component_count, low);
-        json_vector(json, "high", attribute->component_count, high);
-        json_count(json, "not_finite", not_finite_count);
-        json_close(json, '}');
-    }
-    json_close(json, ']');
+    write_attributes(json, cloud, facts->point_count);
     class_counts classes;
     info_classes_count(cloud, &classes);
     info_classes_write(json, &classes);

@@ -11,52 +11,56 @@
 #include <stdio.h>
 #include <string.h>
 
+/// Largest slope of a ray, near the camera plane.
+#define RAY_LIMIT (1 / (float)EWA_NEAR_RATIO)
+
+/// Constants of the shaders.
+static const struct {
+    const char *name;
+    float value;
+} constants[] = {
+    {"TINY", 0x1p-40f},
+    {"MIN_NORMAL", 0x1p-126f},
+    {"MIN_POWER", 0x1p-90f},
+    {"ALMOST_ONE", 0x1.fffffep-1f},
+    {"LARGEST", 0x1.fffffep127f},
+    {"MIN_KEY_OF_ALL", -3e38f},
+    {"UNIT_OCT", 1.0f / 32767.0f},
+    {"BILLBOARD", EWA_BILLBOARD},
+    {"UNIT_ANGLE", 1.0f / 32768.0f},
+    {"UNIT_U16", 1.0f / 65535.0f},
+    {"UNIT_CONE", 1.0f / EWA_CONE_AXIS},
+    {"UNIT_SINE", 1.0f / EWA_CONE_SINE},
+    {"ROUNDING", 0x1p-20f},
+    {"SHORTEST2", 0x1p-120f},
+    {"NEAR_RATIO", (float)EWA_NEAR_RATIO},
+    {"RAY_LIMIT2", RAY_LIMIT * RAY_LIMIT},
+    {"FLAT", (float)EWA_FLAT},
+    {"SINGULAR", (float)EWA_SINGULAR},
+    {"MIN_AREA", (float)EWA_MIN_AREA},
+    {"MIN_SPLAT", (float)EWA_MIN_SPLAT},
+    {"INVERSE_TWO_PI", (float)EWA_INVERSE_TWO_PI},
+    {"TWO_PI", (float)(1 / EWA_INVERSE_TWO_PI)},
+    {"EDGE_ON2", (float)(EWA_EDGE_ON * EWA_EDGE_ON)},
+    {"FREE_RADII", (float)EWA_FREE_RADII},
+    {"FREE_DEPTH", (float)EWA_FREE_DEPTH},
+    {"GRAZING_TOLERANCE", (float)EWA_GRAZING_TOLERANCE},
+    {"CONTOUR_WIDTH", (float)EWA_CONTOUR_WIDTH},
+    {"CONTOUR_REACH", (float)EWA_CONTOUR_REACH},
+    {"CONTOUR_CONCAVE", (float)EWA_CONTOUR_CONCAVE},
+    {"MIN_KEY", (float)EWA_MIN_KEY},
+    {"TANGENT_KEY", 1 - 1 / (float)16},
+    {"FINE_SCALE", 4096},
+    {"FINE_UNIT", 1.0f / 4096},
+    {"PER_CUT", (float)(1 / EWA_CUT)},
+    {"EDGES_OPPOSE", (float)EWA_EDGES_OPPOSE},
+    {"EDGES_SLOPE", (float)(1 / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE))},
+    {"SHADED_NORMAL", (float)EWA_SHADED_NORMAL},
+    {"CURVE_OFFSET", 0.5f - 255 * 0.055f},
+    {"LINE_SLOPE", 255 * 12.92f},
+};
+
 size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
-    const float limit = 1 / (float)EWA_NEAR_RATIO;
-    const struct {
-        const char *name;
-        float value;
-    } constants[] = {
-        {"TINY", 0x1p-40f},
-        {"MIN_NORMAL", 0x1p-126f},
-        {"MIN_POWER", 0x1p-90f},
-        {"ALMOST_ONE", 0x1.fffffep-1f},
-        {"LARGEST", 0x1.fffffep127f},
-        {"MIN_KEY_OF_ALL", -3e38f},
-        {"UNIT_OCT", 1.0f / 32767.0f},
-        {"BILLBOARD", EWA_BILLBOARD},
-        {"UNIT_ANGLE", 1.0f / 32768.0f},
-        {"UNIT_U16", 1.0f / 65535.0f},
-        {"UNIT_CONE", 1.0f / EWA_CONE_AXIS},
-        {"UNIT_SINE", 1.0f / EWA_CONE_SINE},
-        {"ROUNDING", 0x1p-20f},
-        {"SHORTEST2", 0x1p-120f},
-        {"NEAR_RATIO", (float)EWA_NEAR_RATIO},
-        {"RAY_LIMIT2", limit * limit},
-        {"FLAT", (float)EWA_FLAT},
-        {"SINGULAR", (float)EWA_SINGULAR},
-        {"MIN_AREA", (float)EWA_MIN_AREA},
-        {"MIN_SPLAT", (float)EWA_MIN_SPLAT},
-        {"INVERSE_TWO_PI", (float)EWA_INVERSE_TWO_PI},
-        {"TWO_PI", (float)(1 / EWA_INVERSE_TWO_PI)},
-        {"EDGE_ON2", (float)(EWA_EDGE_ON * EWA_EDGE_ON)},
-        {"FREE_RADII", (float)EWA_FREE_RADII},
-        {"FREE_DEPTH", (float)EWA_FREE_DEPTH},
-        {"GRAZING_TOLERANCE", (float)EWA_GRAZING_TOLERANCE},
-        {"CONTOUR_WIDTH", (float)EWA_CONTOUR_WIDTH},
-        {"CONTOUR_REACH", (float)EWA_CONTOUR_REACH},
-        {"CONTOUR_CONCAVE", (float)EWA_CONTOUR_CONCAVE},
-        {"MIN_KEY", (float)EWA_MIN_KEY},
-        {"TANGENT_KEY", 1 - 1 / (float)16},
-        {"FINE_SCALE", 4096},
-        {"FINE_UNIT", 1.0f / 4096},
-        {"PER_CUT", (float)(1 / EWA_CUT)},
-        {"EDGES_OPPOSE", (float)EWA_EDGES_OPPOSE},
-        {"EDGES_SLOPE", (float)(1 / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE))},
-        {"SHADED_NORMAL", (float)EWA_SHADED_NORMAL},
-        {"CURVE_OFFSET", 0.5f - 255 * 0.055f},
-        {"LINE_SLOPE", 255 * 12.92f},
-    };
     size_t at = (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
                                  "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
                                  "#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MERGED_SURFACES %d\n"

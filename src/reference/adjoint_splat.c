@@ -53,19 +53,25 @@ typedef struct camera_cotangent {
     double focal[2], principal[2];
 } camera_cotangent;
 
+/// What the moments of an ellipse's pixels, of conic q, say of its centre, Q S1, and of V, (Q S2 Q - S0 Q) / 2: 11, 12 and 22.
+static void conic_pull_back(const double q[3], const double moments[EWA_MOMENT_COUNT], double center[2], double v[3]) {
+    const double s0 = moments[EWA_MOMENT_WEIGHT], *s1 = moments + EWA_MOMENT_FIRST, *s2 = moments + EWA_MOMENT_SECOND;
+    center[0] = q[0] * s1[0] + q[1] * s1[1];
+    center[1] = q[1] * s1[0] + q[2] * s1[1];
+    const double a[2][2] = {{q[0] * s2[0] + q[1] * s2[1], q[0] * s2[1] + q[1] * s2[2]},
+                            {q[1] * s2[0] + q[2] * s2[1], q[1] * s2[1] + q[2] * s2[2]}};
+    v[0] = (a[0][0] * q[0] + a[0][1] * q[1] - s0 * q[0]) / 2;
+    v[1] = (a[0][0] * q[1] + a[0][1] * q[2] - s0 * q[1]) / 2;
+    v[2] = (a[1][0] * q[1] + a[1][1] * q[2] - s0 * q[2]) / 2;
+}
+
 /// The ellipse: centre, V and |V| of docs/math.md sections 3 and 4.
 static void ellipse_pull_back(const ewa_reference_view *view, const ewa_reference_splat *splat,
                               const double moments[EWA_MOMENT_COUNT], camera_cotangent *to) {
     const ewa_vec3 p = splat->center, axes[2] = {splat->axis_u, splat->axis_v};
-    const double *q = splat->inverse, s0 = moments[EWA_MOMENT_WEIGHT], *s1 = moments + EWA_MOMENT_FIRST,
-                 *s2 = moments + EWA_MOMENT_SECOND;
-    // By the centre: Q S1. By V: (Q S2 Q - S0 Q) / 2.
-    const double center[2] = {q[0] * s1[0] + q[1] * s1[1], q[1] * s1[0] + q[2] * s1[1]};
-    const double a[2][2] = {{q[0] * s2[0] + q[1] * s2[1], q[0] * s2[1] + q[1] * s2[2]},
-                            {q[1] * s2[0] + q[2] * s2[1], q[1] * s2[1] + q[2] * s2[2]}};
-    const double v11 = (a[0][0] * q[0] + a[0][1] * q[1] - s0 * q[0]) / 2,
-                 v12 = (a[0][0] * q[1] + a[0][1] * q[2] - s0 * q[1]) / 2,
-                 v22 = (a[1][0] * q[1] + a[1][1] * q[2] - s0 * q[2]) / 2;
+    double center[2], v[3];
+    conic_pull_back(splat->inverse, moments, center, v);
+    const double s0 = moments[EWA_MOMENT_WEIGHT], v11 = v[0], v12 = v[1], v22 = v[2];
     const bool flat = view->orthographic;
     const double fx = view->fx_px, fy = view->fy_px, x0 = flat ? 0 : p.x / p.z, y0 = flat ? 0 : p.y / p.z;
     const double F2 = flat || view->kernel != EWA_KERNEL_PERSPECTIVE ? 0 : view->cutoff * view->cutoff;

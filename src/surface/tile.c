@@ -65,43 +65,16 @@ void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *s, float *p
     s->edges.side.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
 }
 
-ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job) {
-    uint64_t records = job->largest_bin * EWA_PACKET_LANES;
-    if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
-    if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
-    const size_t tile_floats = (size_t)job->tiles.side_px * job->tiles.side_px;
-    const uint64_t packet_count = job->largest_bin + (uint64_t)EWA_PACKET_LANES * (job->source_count + 1),
-                   run_count = records / EWA_RUN_RECORDS + 2 * ((uint64_t)job->source_count + 1);
-    const size_t box_counts[EWA_BOX_LEVELS] = {
-        records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
-        records / EWA_GROUP_RECORDS / EWA_BLOCK_LANES + EWA_BLOCK_LANES};
-    size_t box_count = 0;
-    for (int i = 0; i < EWA_BOX_LEVELS; i++) box_count += box_counts[i];
-    const struct {
-        ewa_buffer *buffer;
-        size_t count, size_bytes;
-    } needs[] = {
-        {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
-        {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
-        {&s->order_buffer, records + EWA_BLOCK_LANES, sizeof *s->order},
-        {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
-        {&s->box_buffer, 3 * box_count, sizeof(float)},
-        {&s->near_buffer, records, sizeof *s->near_surfels},
-        {&s->clip_buffer, job->with_clips ? records : 0, sizeof *s->clips},
-        {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
-        {&s->surfel_buffer, job->gather ? records + EWA_PACKET_LANES : 0, sizeof *s->surfels},
-        {&s->gather_buffer, job->gather ? EWA_GATHER_PLANES * tile_floats : 0, sizeof(float)},
-        {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
-        {&s->kept_buffer, run_count, sizeof *s->kept},
-        {&s->plane_buffer, ewa_tile_plane_floats(job), sizeof(float)},
-        {&s->pixel_buffer, job->with_small ? tile_floats * EWA_PIXEL_FLOATS + EWA_BLOCK_LANES : 0,
-         sizeof(float)},
-        {&s->packet_buffer, 4 * packet_count, sizeof *s->ordered},
-        {&s->split_buffer, job->source_count, sizeof *s->split},
-    };
-    for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
-        EWA_TRY(ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes));
-    }
+static size_t all_boxes(const size_t counts[EWA_BOX_LEVELS]) {
+    size_t sum = 0;
+    for (int i = 0; i < EWA_BOX_LEVELS; i++) sum += counts[i];
+    return sum;
+}
+
+/// Has a tile's memory, of so many records, packets, runs and boxes, point into its buffers.
+static void bind(const ewa_tile_job *job, ewa_tile_scratch *s, uint64_t records, uint64_t packet_count, uint64_t run_count,
+                 const size_t box_counts[EWA_BOX_LEVELS]) {
+    const size_t box_count = all_boxes(box_counts);
     s->records = s->record_buffer.data;
     s->loads = s->load_buffer.data;
     s->order = s->order_buffer.data;
@@ -129,6 +102,45 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->ordered = s->packet_buffer.data;
     s->depths = (float *)(s->ordered + packet_count);
     s->packets = s->ordered + 2 * packet_count;
+}
+
+ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job) {
+    uint64_t records = job->largest_bin * EWA_PACKET_LANES;
+    if (records > EWA_KEPT_RECORDS) records = EWA_KEPT_RECORDS;
+    if (records < EWA_RUN_RECORDS) records = EWA_RUN_RECORDS;
+    const size_t tile_floats = (size_t)job->tiles.side_px * job->tiles.side_px;
+    const uint64_t packet_count = job->largest_bin + (uint64_t)EWA_PACKET_LANES * (job->source_count + 1),
+                   run_count = records / EWA_RUN_RECORDS + 2 * ((uint64_t)job->source_count + 1);
+    const size_t box_counts[EWA_BOX_LEVELS] = {
+        records + EWA_BLOCK_LANES, records / EWA_GROUP_RECORDS + EWA_BLOCK_LANES,
+        records / EWA_GROUP_RECORDS / EWA_BLOCK_LANES + EWA_BLOCK_LANES};
+    const size_t box_count = all_boxes(box_counts);
+    const struct {
+        ewa_buffer *buffer;
+        size_t count, size_bytes;
+    } needs[] = {
+        {&s->record_buffer, records + EWA_PACKET_LANES, sizeof *s->records},
+        {&s->load_buffer, records + EWA_PACKET_LANES, sizeof *s->loads},
+        {&s->order_buffer, records + EWA_BLOCK_LANES, sizeof *s->order},
+        {&s->list_buffer, 2 * (EWA_LISTS * records + EWA_BLOCK_LANES), sizeof *s->listed},
+        {&s->box_buffer, 3 * box_count, sizeof(float)},
+        {&s->near_buffer, records, sizeof *s->near_surfels},
+        {&s->clip_buffer, job->with_clips ? records : 0, sizeof *s->clips},
+        {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
+        {&s->surfel_buffer, job->gather ? records + EWA_PACKET_LANES : 0, sizeof *s->surfels},
+        {&s->gather_buffer, job->gather ? EWA_GATHER_PLANES * tile_floats : 0, sizeof(float)},
+        {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
+        {&s->kept_buffer, run_count, sizeof *s->kept},
+        {&s->plane_buffer, ewa_tile_plane_floats(job), sizeof(float)},
+        {&s->pixel_buffer, job->with_small ? tile_floats * EWA_PIXEL_FLOATS + EWA_BLOCK_LANES : 0,
+         sizeof(float)},
+        {&s->packet_buffer, 4 * packet_count, sizeof *s->ordered},
+        {&s->split_buffer, job->source_count, sizeof *s->split},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
+        EWA_TRY(ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes));
+    }
+    bind(job, s, records, packet_count, run_count, box_counts);
     s->drawn_count = s->fragment_count = s->hidden_splat_count = s->broken_pixel_count = 0;
     s->setup_s = s->visibility_s = s->accumulate_s = s->edge_s = s->resolve_s = 0;
     return EWA_OK;

@@ -208,6 +208,17 @@ static void push_resize(events_window *window, const viewer_event *event) {
     SDL_PushEvent(&pushed);
 }
 
+static SDL_MouseButtonEvent button_event(const viewer_event *event, uint32_t id, int x, int y) {
+    const bool pressed = event->kind == VIEWER_PRESS;
+    return (SDL_MouseButtonEvent){pressed ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
+                                  .windowID = id,
+                                  .button = (uint8_t)event->button,
+                                  .state = pressed ? SDL_PRESSED : SDL_RELEASED,
+                                  .clicks = (uint8_t)event->clicks,
+                                  .x = x,
+                                  .y = y};
+}
+
 void events_push(events_window *window, const viewer_event *event) {
     const uint32_t id = SDL_GetWindowID(window->window);
     const int x = (int)lround(event->x * window->zoom), y = (int)lround(event->y * window->zoom);
@@ -219,14 +230,7 @@ void events_push(events_window *window, const viewer_event *event) {
         break;
     case VIEWER_PRESS:
     case VIEWER_RELEASE:
-        pushed.button =
-            (SDL_MouseButtonEvent){event->kind == VIEWER_PRESS ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
-                                   .windowID = id,
-                                   .button = (uint8_t)event->button,
-                                   .state = event->kind == VIEWER_PRESS ? SDL_PRESSED : SDL_RELEASED,
-                                   .clicks = (uint8_t)event->clicks,
-                                   .x = x,
-                                   .y = y};
+        pushed.button = button_event(event, id, x, y);
         break;
     case VIEWER_WHEEL:
         pushed.wheel = (SDL_MouseWheelEvent){SDL_MOUSEWHEEL,

@@ -89,6 +89,59 @@ static const char *first_line(const scan_job *job, uint32_t chunk) {
     return at < job->rows->text.end ? at + 1 : at;
 }
 
+/// Takes a byte that is no digit. Returns how many rows end with it.
+static inline uint64_t scan_mark(const scan_job *job, line_state *line, ewa_text_range *ranges, ewa_text_class class,
+                                 const char *here, const char *end) {
+    uint64_t row_count = 0;
+    switch (class) {
+    case EWA_TEXT_POINT:
+        if (line->point) line->odd = true;
+        line->point = here;
+        break;
+    case EWA_TEXT_BLANK:
+        if (here > line->start) {
+            end_word(job, line, ranges, here);
+            line->separated = true;
+        }
+        line->start = here + 1;
+        break;
+    case EWA_TEXT_SEPARATOR:
+        if (here == line->start && !line->separated) line->odd = true; // an empty cell
+        if (here > line->start || !line->separated) end_word(job, line, ranges, here);
+        line->separated = false;
+        line->start = here + 1;
+        break;
+    case EWA_TEXT_LINE_END:
+        if (here > line->start && !line->comment) end_word(job, line, ranges, here);
+        if (line->column > 0) row_count = end_line(job, line, ranges);
+        *line = (line_state){.start = here + 1};
+        break;
+    case EWA_TEXT_SIGN:
+        if (here == line->start) {
+            line->start++;
+            if (line->column < job->layout->column_count && *here == '-')
+                ranges[line->column].negative = true;
+        } else {
+            line->odd = true;
+        }
+        break;
+    case EWA_TEXT_EXPONENT:
+        if (here > line->start && !line->odd && line->column < job->layout->column_count)
+            ranges[line->column].unusual = true;
+        line->odd = true;
+        break;
+    case EWA_TEXT_OTHER:
+        if (line->column == 0 && here == line->start &&
+            ewa_text_is_comment((ewa_text){here, (size_t)(end - here)}))
+            line->comment = true;
+        if (*here == '"' && line->column < job->layout->column_count)
+            ranges[line->column].unusual = true;
+        line->odd = true;
+        break;
+    }
+    return row_count;
+}
+
 static uint64_t scan_lines(const scan_job *job, const char *at, const char *end, ewa_text_range *ranges) {
     const uint8_t *classes = job->layout->classes;
     line_state line = {.start = at};
@@ -105,52 +158,7 @@ static uint64_t scan_lines(const scan_job *job, const char *at, const char *end,
             const char *here = at + __builtin_ctzll(others);
             const ewa_text_class class = (ewa_text_class)classes[(uint8_t)*here];
             if (line.comment && class != EWA_TEXT_LINE_END) continue;
-            switch (class) {
-            case EWA_TEXT_POINT:
-                if (line.point) line.odd = true;
-                line.point = here;
-                break;
-            case EWA_TEXT_BLANK:
-                if (here > line.start) {
-                    end_word(job, &line, ranges, here);
-                    line.separated = true;
-                }
-                line.start = here + 1;
-                break;
-            case EWA_TEXT_SEPARATOR:
-                if (here == line.start && !line.separated) line.odd = true; // an empty cell
-                if (here > line.start || !line.separated) end_word(job, &line, ranges, here);
-                line.separated = false;
-                line.start = here + 1;
-                break;
-            case EWA_TEXT_LINE_END:
-                if (here > line.start && !line.comment) end_word(job, &line, ranges, here);
-                if (line.column > 0) row_count += end_line(job, &line, ranges);
-                line = (line_state){.start = here + 1};
-                break;
-            case EWA_TEXT_SIGN:
-                if (here == line.start) {
-                    line.start++;
-                    if (line.column < job->layout->column_count && *here == '-')
-                        ranges[line.column].negative = true;
-                } else {
-                    line.odd = true;
-                }
-                break;
-            case EWA_TEXT_EXPONENT:
-                if (here > line.start && !line.odd && line.column < job->layout->column_count)
-                    ranges[line.column].unusual = true;
-                line.odd = true;
-                break;
-            case EWA_TEXT_OTHER:
-                if (line.column == 0 && here == line.start &&
-                    ewa_text_is_comment((ewa_text){here, (size_t)(end - here)}))
-                    line.comment = true;
-                if (*here == '"' && line.column < job->layout->column_count)
-                    ranges[line.column].unusual = true;
-                line.odd = true;
-                break;
-            }
+            row_count += scan_mark(job, &line, ranges, class, here, end);
         }
     }
     if (end > line.start && !line.comment) end_word(job, &line, ranges, end);

@@ -121,10 +121,19 @@ static inline bool ewa_laz_times_differ(uint64_t a, uint64_t b) {
     return a != b || magnitude > infinite;
 }
 
+/// What changes from record to record.
+enum {
+    EWA_LAZ_NUMBER = 3, ///< how the number of the return does
+    EWA_LAZ_RETURNS_CHANGED = 4,
+    EWA_LAZ_ANGLE_CHANGED = 8,
+    EWA_LAZ_TIME_CHANGED = 16,
+    EWA_LAZ_SOURCE_CHANGED = 32,
+    EWA_LAZ_CHANNEL_CHANGED = 64,
+};
+
 /// Codes channel and returns; gives the channel, and which of source, time and angle change.
 EWA_LAZ_INLINE uint32_t ewa_laz_returns14(bool encoding, ewa_laz_coder *c, ewa_laz_points14 *m,
                                           ewa_laz_point14 *now) {
-    enum { NUMBER = 3, RETURNS = 4, ANGLE = 8, TIME = 16, SOURCE = 32, CHANNEL = 64 };
     ewa_laz_channel14 *old = &m->channels[m->channel];
     const ewa_laz_point14 *before = &old->last;
     const uint32_t kind = (before->number == 1 ? 1u : 0) | (before->number >= before->returns ? 2u : 0) |
@@ -137,12 +146,12 @@ EWA_LAZ_INLINE uint32_t ewa_laz_returns14(bool encoding, ewa_laz_coder *c, ewa_l
                    : step == 1  ? 1
                    : step == 15 ? 2
                                 : 3) |
-                  (now->returns != last->returns ? RETURNS : 0) | (now->angle != last->angle ? ANGLE : 0) |
-                  (ewa_laz_times_differ(now->time, last->time) ? TIME : 0) |
-                  (now->source != last->source ? SOURCE : 0) | (now->channel != m->channel ? CHANNEL : 0);
+                  (now->returns != last->returns ? EWA_LAZ_RETURNS_CHANGED : 0) | (now->angle != last->angle ? EWA_LAZ_ANGLE_CHANGED : 0) |
+                  (ewa_laz_times_differ(now->time, last->time) ? EWA_LAZ_TIME_CHANGED : 0) |
+                  (now->source != last->source ? EWA_LAZ_SOURCE_CHANGED : 0) | (now->channel != m->channel ? EWA_LAZ_CHANNEL_CHANGED : 0);
     }
     changed = ewa_laz_symbol(encoding, c, &old->changed[kind], 128, changed);
-    m->switched = changed & CHANNEL;
+    m->switched = changed & EWA_LAZ_CHANNEL_CHANGED;
     if (m->switched) {
         const uint32_t by =
             ewa_laz_symbol(encoding, c, &old->channel, 3, (now->channel - m->channel - 1) & 3);
@@ -158,9 +167,9 @@ EWA_LAZ_INLINE uint32_t ewa_laz_returns14(bool encoding, ewa_laz_coder *c, ewa_l
         *now = k->last;
         now->channel = (uint8_t)m->channel;
     }
-    if (changed & RETURNS)
+    if (changed & EWA_LAZ_RETURNS_CHANGED)
         now->returns = (uint8_t)ewa_laz_symbol(encoding, c, &k->returns[last_returns], 16, now->returns);
-    switch (changed & NUMBER) {
+    switch (changed & EWA_LAZ_NUMBER) {
     case 0:
         break;
     case 1:
@@ -170,7 +179,7 @@ EWA_LAZ_INLINE uint32_t ewa_laz_returns14(bool encoding, ewa_laz_coder *c, ewa_l
         now->number = (last_number + 15) & 15;
         break;
     default:
-        if (changed & TIME)
+        if (changed & EWA_LAZ_TIME_CHANGED)
             now->number = (uint8_t)ewa_laz_symbol(encoding, c, &k->number[last_number], 16, now->number);
         else
             now->number = (uint8_t)(last_number + 2 +
@@ -181,98 +190,121 @@ EWA_LAZ_INLINE uint32_t ewa_laz_returns14(bool encoding, ewa_laz_coder *c, ewa_l
     return changed;
 }
 
+/// What the models of a record's core are chosen by.
+typedef struct ewa_laz_context14 {
+    uint32_t changed;   ///< bits
+    uint32_t map, level; ///< of steps, and of heights
+    uint32_t kind;      ///< 2 a first return, 1 a last one
+} ewa_laz_context14;
+
+static inline ewa_laz_context14 ewa_laz_context14_of(uint32_t changed, const ewa_laz_point14 *now) {
+    const bool time_changed = changed & EWA_LAZ_TIME_CHANGED;
+    const uint32_t distance =
+        (uint32_t)(now->returns > now->number ? now->returns - now->number : now->number - now->returns);
+    return (ewa_laz_context14){
+        .changed = changed,
+        .map = (uint32_t)ewa_laz_return_map14[now->returns][now->number] << 1 | time_changed,
+        .level = distance < 7 ? distance : 7,
+        .kind = (now->number == 1 ? 2u : 0) | (now->number >= now->returns ? 1u : 0),
+    };
+}
+
+/// Codes a record's place; `c` is that of the layer of x and y.
+EWA_LAZ_INLINE void ewa_laz_place14(bool encoding, ewa_laz_coder *c, ewa_laz_layer *heights, ewa_laz_channel14 *k,
+                                    const ewa_laz_context14 *of, ewa_laz_point14 *now) {
+    const bool single = now->returns == 1;
+    uint32_t width_x, width_y, width_z;
+    const int32_t step_x = ewa_laz_integer32(encoding, c, &k->x, single, k->step_x[of->map].sorted[2],
+                                             (uint32_t)now->x - (uint32_t)k->last.x, &width_x);
+    const int32_t step_y =
+        ewa_laz_integer32(encoding, c, &k->y, ewa_laz_width_context(single, width_x, 20),
+                          k->step_y[of->map].sorted[2], (uint32_t)now->y - (uint32_t)k->last.y, &width_y);
+    now->x = (int32_t)((uint32_t)k->last.x + (uint32_t)step_x);
+    now->y = (int32_t)((uint32_t)k->last.y + (uint32_t)step_y);
+    ewa_laz_median_add(&k->step_x[of->map], step_x);
+    ewa_laz_median_add(&k->step_y[of->map], step_y);
+    if (!encoding && !heights->present) return;
+    ewa_laz_coder own = heights->coder;
+    now->z = ewa_laz_integer32(encoding, &own, &k->z, ewa_laz_width_context(single, (width_x + width_y) / 2, 18),
+                               k->heights[of->level], now->z, &width_z);
+    k->heights[of->level] = now->z;
+    heights->coder = own;
+}
+
+/// Codes what else a record's core has, each in a layer of its own.
+EWA_LAZ_INLINE void ewa_laz_attributes14(bool encoding, ewa_laz_layer *layers, ewa_laz_channel14 *k,
+                                         const ewa_laz_context14 *of, ewa_laz_point14 *now) {
+    const bool time_changed = of->changed & EWA_LAZ_TIME_CHANGED;
+    const ewa_laz_point14 last = k->last;
+    ewa_laz_layer *layer = &layers[EWA_LAZ_LAYER_CLASSIFICATION];
+    if (encoding || layer->present) {
+        ewa_laz_coder c = layer->coder;
+        if (encoding) layer->changed |= now->classification != last.classification;
+        now->classification = (uint8_t)ewa_laz_symbol(
+            encoding, &c, &k->classifications[(last.classification & 31) << 1 | (of->kind == 3)], 256,
+            now->classification);
+        layer->coder = c;
+    }
+    layer = &layers[EWA_LAZ_LAYER_FLAGS];
+    if (encoding || layer->present) {
+        ewa_laz_coder c = layer->coder;
+        if (encoding) layer->changed |= now->flags != last.flags;
+        now->flags = (uint8_t)ewa_laz_symbol(encoding, &c, &k->flags[last.flags], 64, now->flags);
+        layer->coder = c;
+    }
+    layer = &layers[EWA_LAZ_LAYER_INTENSITY];
+    if (encoding || layer->present) {
+        ewa_laz_coder c = layer->coder;
+        if (encoding) layer->changed |= now->intensity != last.intensity;
+        uint16_t *intensity = &k->intensities[of->kind << 1 | time_changed];
+        *intensity = ewa_laz_integer16(encoding, &c, &k->intensity, of->kind, *intensity, now->intensity);
+        now->intensity = *intensity;
+        layer->coder = c;
+    }
+    layer = &layers[EWA_LAZ_LAYER_ANGLE];
+    if ((encoding || layer->present) && of->changed & EWA_LAZ_ANGLE_CHANGED) {
+        ewa_laz_coder c = layer->coder;
+        layer->changed = true;
+        now->angle = ewa_laz_integer16(encoding, &c, &k->angle, time_changed, last.angle, now->angle);
+        layer->coder = c;
+    }
+    layer = &layers[EWA_LAZ_LAYER_USER];
+    if (encoding || layer->present) {
+        ewa_laz_coder c = layer->coder;
+        if (encoding) layer->changed |= now->user != last.user;
+        now->user = (uint8_t)ewa_laz_symbol(encoding, &c, &k->users[last.user / 4], 256, now->user);
+        layer->coder = c;
+    }
+    layer = &layers[EWA_LAZ_LAYER_SOURCE];
+    if ((encoding || layer->present) && of->changed & EWA_LAZ_SOURCE_CHANGED) {
+        ewa_laz_coder c = layer->coder;
+        layer->changed = true;
+        now->source = ewa_laz_integer16(encoding, &c, &k->source, 0, last.source, now->source);
+        layer->coder = c;
+    }
+    layer = &layers[EWA_LAZ_LAYER_TIME];
+    if ((encoding || layer->present) && time_changed) {
+        ewa_laz_coder c = layer->coder;
+        layer->changed = true;
+        now->time = ewa_laz_time(encoding, false, &c, &k->times, now->time);
+        layer->coder = c;
+    }
+}
+
 /// Codes a record's core.
 EWA_LAZ_INLINE void ewa_laz_point14_code(bool encoding, ewa_laz_layer *layers, ewa_laz_points14 *m,
                                          uint8_t *record) {
-    enum { ANGLE = 8, TIME = 16, SOURCE = 32 };
     ewa_laz_point14 now = {0};
     if (encoding) now = ewa_laz_point14_load(record);
     ewa_laz_coder c = layers[EWA_LAZ_LAYER_XY].coder;
     const uint32_t changed = ewa_laz_returns14(encoding, &c, m, &now);
     ewa_laz_channel14 *k = &m->channels[m->channel];
-    const ewa_laz_point14 last = k->last;
-    const bool time_changed = changed & TIME, single = now.returns == 1;
-    const uint32_t map = (uint32_t)ewa_laz_return_map14[now.returns][now.number] << 1 | time_changed;
-    const uint32_t distance =
-        (uint32_t)(now.returns > now.number ? now.returns - now.number : now.number - now.returns);
-    const uint32_t level = distance < 7 ? distance : 7;
-    const uint32_t kind = (now.number == 1 ? 2u : 0) | (now.number >= now.returns ? 1u : 0);
-
-    uint32_t width_x, width_y, width_z;
-    const int32_t step_x = ewa_laz_integer32(encoding, &c, &k->x, single, k->step_x[map].sorted[2],
-                                             (uint32_t)now.x - (uint32_t)last.x, &width_x);
-    const int32_t step_y =
-        ewa_laz_integer32(encoding, &c, &k->y, ewa_laz_width_context(single, width_x, 20),
-                          k->step_y[map].sorted[2], (uint32_t)now.y - (uint32_t)last.y, &width_y);
-    now.x = (int32_t)((uint32_t)last.x + (uint32_t)step_x);
-    now.y = (int32_t)((uint32_t)last.y + (uint32_t)step_y);
-    ewa_laz_median_add(&k->step_x[map], step_x);
-    ewa_laz_median_add(&k->step_y[map], step_y);
+    const ewa_laz_context14 of = ewa_laz_context14_of(changed, &now);
+    ewa_laz_place14(encoding, &c, &layers[EWA_LAZ_LAYER_Z], k, &of, &now);
     layers[EWA_LAZ_LAYER_XY].coder = c;
-
-    if (encoding || layers[EWA_LAZ_LAYER_Z].present) {
-        c = layers[EWA_LAZ_LAYER_Z].coder;
-        now.z =
-            ewa_laz_integer32(encoding, &c, &k->z, ewa_laz_width_context(single, (width_x + width_y) / 2, 18),
-                              k->heights[level], now.z, &width_z);
-        k->heights[level] = now.z;
-        layers[EWA_LAZ_LAYER_Z].coder = c;
-    }
-    ewa_laz_layer *layer = &layers[EWA_LAZ_LAYER_CLASSIFICATION];
-    if (encoding || layer->present) {
-        c = layer->coder;
-        if (encoding) layer->changed |= now.classification != last.classification;
-        now.classification = (uint8_t)ewa_laz_symbol(
-            encoding, &c, &k->classifications[(last.classification & 31) << 1 | (kind == 3)], 256,
-            now.classification);
-        layer->coder = c;
-    }
-    layer = &layers[EWA_LAZ_LAYER_FLAGS];
-    if (encoding || layer->present) {
-        c = layer->coder;
-        if (encoding) layer->changed |= now.flags != last.flags;
-        now.flags = (uint8_t)ewa_laz_symbol(encoding, &c, &k->flags[last.flags], 64, now.flags);
-        layer->coder = c;
-    }
-    layer = &layers[EWA_LAZ_LAYER_INTENSITY];
-    if (encoding || layer->present) {
-        c = layer->coder;
-        if (encoding) layer->changed |= now.intensity != last.intensity;
-        uint16_t *intensity = &k->intensities[kind << 1 | time_changed];
-        *intensity = ewa_laz_integer16(encoding, &c, &k->intensity, kind, *intensity, now.intensity);
-        now.intensity = *intensity;
-        layer->coder = c;
-    }
-    layer = &layers[EWA_LAZ_LAYER_ANGLE];
-    if ((encoding || layer->present) && changed & ANGLE) {
-        c = layer->coder;
-        layer->changed = true;
-        now.angle = ewa_laz_integer16(encoding, &c, &k->angle, time_changed, last.angle, now.angle);
-        layer->coder = c;
-    }
-    layer = &layers[EWA_LAZ_LAYER_USER];
-    if (encoding || layer->present) {
-        c = layer->coder;
-        if (encoding) layer->changed |= now.user != last.user;
-        now.user = (uint8_t)ewa_laz_symbol(encoding, &c, &k->users[last.user / 4], 256, now.user);
-        layer->coder = c;
-    }
-    layer = &layers[EWA_LAZ_LAYER_SOURCE];
-    if ((encoding || layer->present) && changed & SOURCE) {
-        c = layer->coder;
-        layer->changed = true;
-        now.source = ewa_laz_integer16(encoding, &c, &k->source, 0, last.source, now.source);
-        layer->coder = c;
-    }
-    layer = &layers[EWA_LAZ_LAYER_TIME];
-    if ((encoding || layer->present) && time_changed) {
-        c = layer->coder;
-        layer->changed = true;
-        now.time = ewa_laz_time(encoding, false, &c, &k->times, now.time);
-        layer->coder = c;
-    }
+    ewa_laz_attributes14(encoding, layers, k, &of, &now);
     k->last = now;
-    k->time_changed = time_changed;
+    k->time_changed = changed & EWA_LAZ_TIME_CHANGED;
     if (!encoding) ewa_laz_point14_store(&now, record);
 }
 
