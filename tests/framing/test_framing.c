@@ -291,6 +291,32 @@ TEST(test_shells) {
     assert_int_equal(view_of_shell(1, 1, wide, 1, EWA_UP_Z_SURVEYED), EWA_VIEW_FRONT);
 }
 
+/// In a wide lens, too, what is framed are balls, each as large as its disc: the outermost ones meet the sides of the room.
+TEST(test_balls_in_a_wide_lens) {
+    static const double direction[3] = {0.3, 1, -0.2}, up[3] = {0, 0, 1};
+    const disc discs[] = {{{0, 0, 0}, 0.3, {0, 0, 1}}, {{1, 0.2, 0}, 0.3, {0, 1, 0}}, {{-1, 0, 0.4}, 0.3, {1, 0, 0}}, {{0, 1, 1}, 0.3, {1, 1, 1}}};
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(discs, 4);
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
+    ewa_camera camera = check_camera(800, 600);
+    assert_int_equal(ewa_camera_set_fov(&camera, 100), EWA_OK);
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    assert_int_equal(ewa_framing_fit(framing, direction, up, &camera), EWA_OK);
+    const double *m = camera.world_to_camera;
+    double nearest = INFINITY;
+    for (size_t i = 0; i < framing->count; i++) {
+        double p[3];
+        for (int r = 0; r < 3; r++) {
+            p[r] = m[4 * r + 3];
+            for (int c = 0; c < 3; c++) p[r] += m[4 * r + c] * (framing->offsets[i][c] + framing->middle_world[c]);
+        }
+        for (int c = 0; c < 2; c++) {
+            const double slope = 0.92 * (c ? camera.height_px : camera.width_px) / (2 * camera.fx_px);
+            nearest = fmin(nearest, (slope * p[2] - fabs(p[c])) / sqrt(1 + slope * slope) - framing->rims_world[i]);
+        }
+    }
+    assert_float_equal(nearest, 0, 1e-9);
+}
+
 /// A vector whose axes are named anew, in a circle by `turns`.
 static void turn_axes(const double v[3], int turns, double turned[3]) {
     for (int c = 0; c < 3; c++) turned[(c + turns) % 3] = v[c];

@@ -317,6 +317,26 @@ TEST_WITHIN(reads_positions_of_any_type, begin, end) {
     }
 }
 
+/// A number with scale and offset that is no place.
+TEST_WITHIN(reads_scaled_numbers, begin, end) {
+    char path[600];
+    uint8_t record[14] = {0};
+    write_folder(BINARY);
+    for (int c = 0; c < 3; c++) las_put(record + 4 * c, 5, 4);
+    las_put(record + 12, (uint64_t)(int64_t)-7, 2);
+    write_description("binary", "{\"name\":\"X\",\"type\":\"signed\",\"size\":4},{\"name\":\"Y\",\"type\":\"signed\",\"size\":4},"
+                                "{\"name\":\"Z\",\"type\":\"signed\",\"size\":4},"
+                                "{\"name\":\"Heat\",\"type\":\"signed\",\"size\":2,\"scale\":0.5,\"offset\":20}");
+    write_text("ept-hierarchy/0-0-0-0.json", "{\"0-0-0-0\": 1}");
+    scratch_write(within("ept-data/0-0-0-0.bin", path), record, sizeof record);
+    OWNED(ewa_octree_close) ewa_octree *octree = open_folder(folder);
+    OWNED(ewa_cloud_destroy) ewa_cloud *read = NULL;
+    const uint32_t index = 0;
+    assert_int_equal(ewa_octree_read(octree, &index, 1, NULL, &read), EWA_OK);
+    assert_true(las_value(read, "Heat", 0, 0) == 16.5);
+    for (uint32_t c = 0; c < 3; c++) assert_true(las_world(read, 0, c) == 5);
+}
+
 TEST_WITHIN(takes_narrow_colors_for_all, begin, end) {
     write_folder(BINARY);
     // One byte twice in all nodes, of which each would be looked at alone.
