@@ -6,7 +6,8 @@
 //
 //   measure_lod build OUT.copc.laz IN...       makes an octree and says what it took
 //   measure_lod quality FILE [SPACING...]   PSNR against all points, of the octree and of picks of as many points
-//   measure_lod dolly FILE [FRAMES [ALL [OCTREE]]]  steps between the frames of a slow dolly; parts that the sides of pixels are divided into
+//   measure_lod dolly FILE [FRAMES [ALL [OCTREE [FIRST]]]]  steps between the frames of a slow dolly, of parts that the sides of pixels are
+//                                            divided into, from FIRST times the distance on at which all fills the picture
 //   measure_lod speed FILE [DISTANCE]       cold and warm frames
 #include "ewa/ewa.h"
 #include "measure/measure.h"
@@ -222,6 +223,7 @@ static void put_over_black(uint8_t *rgba) {
 
 static int dolly(ewa_context *context, int count, char **words) {
     const int frame_count = count > 1 ? atoi(words[1]) : 240;
+    const double first = count > 4 ? atof(words[4]) : 1.2;
     ewa_lod *lod = NULL;
     ewa_lod_info info;
     check(ewa_lod_open(context, words[0], &lod));
@@ -237,13 +239,14 @@ static int dolly(ewa_context *context, int count, char **words) {
     int max_jump = 0;
     uint64_t jumps = 0, values = 0;
     for (int f = 0; f < frame_count; f++) {
-        const ewa_camera camera = camera_at(&info.bounds, 1.2 * pow(1.01, f));
+        const ewa_camera camera = camera_at(&info.bounds, first * pow(1.01, f));
         ewa_render_options options = unlit(), of_octree = unlit();
         if (count > 2) options.supersampling = (uint32_t)atoi(words[2]);
         if (count > 3) of_octree.supersampling = (uint32_t)atoi(words[3]);
         const ewa_frame full = {.rgba8 = pictures[f & 1]}, part = {.rgba8 = pictures[2 + (f & 1)]};
         WITH_DEFAULTS(ewa_lod_options, lod_options);
         lod_options.memory_bytes = (uint64_t)1 << 33;
+        if (getenv("ERROR")) lod_options.error = atof(getenv("ERROR"));
         check(ewa_render(renderer, surfels, &camera, &options, &full, NULL));
         check(ewa_lod_render(lod, renderer, &camera, &of_octree, &lod_options, &part, NULL));
         put_over_black(full.rgba8);

@@ -30,6 +30,8 @@ typedef struct ewa_render_job {
     ewa_division parts;      ///< of pixels, chosen where the options do not say
     bool count_fragments; ///< for the stats
     uint32_t tile_px;     ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
+    uint8_t *blank; ///< [row][column], 0, of squares of EWA_BLANK_PX of the band: 1 is set for one that nothing touches, and whose pixels are
+                    ///< left as they are; a back end may write all. NULL: all are written
     const ewa_gather *gather; ///< back from pixels to colours (gather.c); NULL: a picture
     uint32_t first_row_px,
         end_row_px; ///< the band that is drawn: multiples of EWA_FIELD_PX, or the picture's end

@@ -73,6 +73,7 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     EWA_TRY(ewa_tile_job_make(context, &cpu->room, frame, side_px, &job));
     EWA_TRY(ewa_tile_job_bin(context, &cpu->room, &job));
     job.scratch = cpu->scratch;
+    job.blank = frame->blank, job.first_row_px = frame->first_row_px;
     const double binned_s = ewa_now_s();
     EWA_TRY(draw_tiles(cpu, &job, frame));
     uint64_t broken = 0;

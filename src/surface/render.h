@@ -45,6 +45,9 @@ void ewa_render_choose_parts(ewa_renderer *renderer, const ewa_surfels *const *s
 /// fit in cache than in one of the usual size.
 enum { EWA_DENSE_SURFELS = 5000000, EWA_DENSE_TILE_PX = 32 };
 
+/// Side of the squares of a picture that are noted as blank: that of the smallest tiles.
+enum { EWA_BLANK_PX = EWA_DENSE_TILE_PX };
+
 /// Sets the side of tiles: 16, 32, 64 or 128 pixels; 0: by the size of the picture. Pictures are the same.
 void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px);
 

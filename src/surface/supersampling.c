@@ -27,9 +27,17 @@ static ewa_camera finer_camera(const ewa_camera *camera, uint32_t finer) {
     return fine;
 }
 
+/// A pixel of parts on which nothing is drawn.
+typedef struct blank_pixel {
+    float rgba[4], depth, normal[3], coverage;
+    uint8_t codes[4];
+} blank_pixel;
+
 typedef struct average_job {
     const ewa_frame *fine, *frame;
     uint32_t finer, width_px;
+    const uint8_t *blank; ///< of the fine picture's squares; NULL: all have been written
+    blank_pixel nothing;
 } average_job;
 
 /// Sums `count` floats of each of finer x finer parts of the pixel at (x, y).
@@ -84,11 +92,27 @@ static void average_normals(const average_job *job, uint32_t x, uint32_t y) {
     store_normal(job->frame, (size_t)y * job->width_px + x, n);
 }
 
+static void store_nothing(const average_job *job, size_t pixel) {
+    const ewa_frame *frame = job->frame;
+    const blank_pixel *nothing = &job->nothing;
+    if (frame->rgba) memcpy(frame->rgba + 4 * pixel, nothing->rgba, sizeof nothing->rgba);
+    if (frame->rgba8) memcpy(frame->rgba8 + 4 * pixel, nothing->codes, sizeof nothing->codes);
+    if (frame->depth) frame->depth[pixel] = nothing->depth;
+    if (frame->normal) memcpy(frame->normal + 3 * pixel, nothing->normal, sizeof nothing->normal);
+    if (frame->coverage) frame->coverage[pixel] = nothing->coverage;
+}
+
 static void average_row(void *data, uint32_t y, uint32_t worker) {
     (void)worker;
     const average_job *job = data;
     const ewa_frame *fine = job->fine, *frame = job->frame;
+    const uint32_t columns = (job->width_px * job->finer + EWA_BLANK_PX - 1) / EWA_BLANK_PX;
+    const uint8_t *blank = job->blank ? job->blank + (size_t)(y * job->finer / EWA_BLANK_PX) * columns : NULL;
     for (uint32_t x = 0; x < job->width_px; x++) {
+        if (blank && blank[x * job->finer / EWA_BLANK_PX]) {
+            store_nothing(job, (size_t)y * job->width_px + x);
+            continue;
+        }
         if (fine->rgba) average_colors(job, x, y);
         if (fine->depth && frame->depth) take_depth(job, x, y);
         if (fine->normal && frame->normal) average_normals(job, x, y);
@@ -97,6 +121,24 @@ static void average_row(void *data, uint32_t y, uint32_t worker) {
         sum_parts(job, fine->coverage, 1, x, y, &sum);
         frame->coverage[(size_t)y * job->width_px + x] = sum / (float)(job->finer * job->finer);
     }
+}
+
+/// Finds what pixels without anything get: the mean of such parts, with the roundings of any other.
+static blank_pixel make_nothing(const ewa_render_job *job, uint32_t finer) {
+    enum { PARTS = EWA_MAX_SUPERSAMPLING * EWA_MAX_SUPERSAMPLING };
+    const float *color = job->options.background;
+    const float background[4] = {color[0] * color[3], color[1] * color[3], color[2] * color[3], color[3]};
+    float rgba[4 * PARTS], depth[PARTS], normal[3 * PARTS] = {0}, coverage[PARTS] = {0};
+    for (uint32_t i = 0; i < PARTS; i++) {
+        memcpy(&rgba[4 * i], background, sizeof background);
+        depth[i] = INFINITY;
+    }
+    blank_pixel nothing;
+    const ewa_frame fine = {.rgba = rgba, .depth = depth, .normal = normal, .coverage = coverage};
+    const ewa_frame pixel = {.rgba8 = nothing.codes, .rgba = nothing.rgba, .depth = &nothing.depth, .normal = nothing.normal, .coverage = &nothing.coverage};
+    average_job one = {.fine = &fine, .frame = &pixel, .finer = finer, .width_px = 1};
+    average_row(&one, 0, 0);
+    return nothing;
 }
 
 /// The planes of a frame from one of its rows on.
@@ -116,9 +158,12 @@ static float *plane_before(const float *at, size_t first, size_t channel_count) 
     return (float *)((uintptr_t)at - first * channel_count * sizeof *at);
 }
 
-/// Planes for the parts of a band of `frame`'s pixels, as they are (`band`), and for a back end (`drawn`).
+/// Squares that may be blank along a side of so many pixels.
+static size_t blank_squares(uint32_t side_px, uint32_t finer) { return ((size_t)side_px * finer + EWA_BLANK_PX - 1) / EWA_BLANK_PX; }
+
+/// Planes for the parts of a band of `frame`'s pixels, as they are (`band`), and for a back end (`drawn`), and bytes behind them.
 static ewa_status reserve_parts(ewa_context *context, ewa_buffer *room, const ewa_frame *frame, size_t first_part,
-                                size_t part_count, ewa_frame *band, ewa_frame *drawn) {
+                                size_t part_count, size_t byte_count, ewa_frame *band, ewa_frame *drawn, uint8_t **bytes) {
     const struct {
         float **band, **drawn;
         size_t channel_count;
@@ -129,7 +174,7 @@ static ewa_status reserve_parts(ewa_context *context, ewa_buffer *room, const ew
     enum { PLANES = sizeof planes / sizeof *planes };
     size_t channels = 0;
     for (int i = 0; i < PLANES; i++) channels += planes[i].channel_count;
-    EWA_TRY(ewa_buffer_reserve(context, room, part_count * channels, sizeof(float)));
+    EWA_TRY(ewa_buffer_reserve(context, room, part_count * channels * sizeof(float) + byte_count, 1));
     *band = *drawn = (ewa_frame){.rgba8 = NULL};
     float *at = room->data;
     for (int i = 0; i < PLANES; i++) {
@@ -138,6 +183,7 @@ static ewa_status reserve_parts(ewa_context *context, ewa_buffer *room, const ew
         *planes[i].drawn = plane_before(at, first_part, planes[i].channel_count);
         at += planes[i].channel_count * part_count;
     }
+    *bytes = (uint8_t *)at;
     return EWA_OK;
 }
 
@@ -166,19 +212,27 @@ ewa_status ewa_parts_draw(ewa_context *context, const ewa_backend *backend, void
     const uint32_t width_px = job->camera.width_px;
     *stats = (ewa_render_stats){.splat_count = 0};
     const uint32_t band_px = band_rows_px(backend, job, finer);
+    const blank_pixel nothing = make_nothing(job, finer);
+    // Squares are of whole pixels, and what lights edges looks at all parts.
+    const bool with_blank = EWA_BLANK_PX % finer == 0 && !backend->add && !(job->options.eye_dome > 0);
+    const size_t blank_bytes = blank_squares(width_px, finer) * blank_squares(band_px, finer);
     for (uint32_t first_px = job->first_row_px; first_px < job->end_row_px; first_px += band_px) {
         const uint32_t end_px = job->end_row_px - first_px < band_px ? job->end_row_px : first_px + band_px;
         ewa_render_job fine = finer_job(job, finer, first_px, end_px);
         const size_t row = fine.camera.width_px;
         ewa_frame parts;
         EWA_TRY(reserve_parts(context, room, &job->frame, row * fine.first_row_px,
-                              row * (fine.end_row_px - fine.first_row_px), &parts, &fine.frame));
+                              row * (fine.end_row_px - fine.first_row_px), blank_bytes, &parts, &fine.frame, &fine.blank));
+        if (with_blank)
+            memset(fine.blank, 0, blank_bytes);
+        else
+            fine.blank = NULL;
         ewa_render_stats took;
         EWA_TRY(backend->draw(state, &fine, &took));
         took.level = 0;
         ewa_render_stats_add(stats, &took);
         const ewa_frame band = frame_from(&job->frame, (size_t)first_px * width_px);
-        average_job average = {&parts, &band, finer, width_px};
+        average_job average = {&parts, &band, finer, width_px, fine.blank, nothing};
         ewa_parallel(context, average_row, &average, end_px - first_px);
     }
     return EWA_OK;

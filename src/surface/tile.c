@@ -7,6 +7,7 @@
 // Records are kept from the first pass to the second. A tile that would need more than EWA_KEPT_RECORDS sets
 // its runs up again for the second pass instead: the same records in the same order, so the same bytes.
 #include "surface/tile.h"
+#include "surface/render.h"
 #include "surface/tile_runs.h"
 
 #include <assert.h>
@@ -326,9 +327,31 @@ static void gather_back(const ewa_tile_job *job, ewa_tile *tile, ewa_tile_scratc
     if (!job->gather->filled) ewa_tile_draw_edges(job, tile, s, kept);
 }
 
+static bool is_blank(const ewa_tile_job *job, uint32_t index) {
+    for (uint32_t i = 0; i < job->source_count; i++) {
+        const uint64_t *first = &job->sources[i].bins.lists.starts[index];
+        if (first[1] > first[0]) return false;
+    }
+    return true;
+}
+
+/// Notes a tile as blank, in squares; tiles are no smaller than these.
+static void note_blank(const ewa_tile_job *job, uint32_t index) {
+    const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
+    const uint32_t columns = (job->tiles.width_px + EWA_BLANK_PX - 1) / EWA_BLANK_PX;
+    const uint32_t first = place.y_px - job->first_row_px, end = first + place.height_px;
+    for (uint32_t y = first / EWA_BLANK_PX; y * EWA_BLANK_PX < end; y++)
+        for (uint32_t x = place.x_px / EWA_BLANK_PX; x * EWA_BLANK_PX < place.x_px + place.width_px; x++)
+            job->blank[(size_t)y * columns + x] = 1;
+}
+
 void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const ewa_tile_job *job = data;
     const uint32_t index = job->first_tile + number;
+    if (job->blank && is_blank(job, index)) {
+        note_blank(job, index);
+        return;
+    }
     ewa_tile_scratch *s = &job->scratch[worker];
     ewa_tile tile;
     ewa_tile_place(job, s, index, &tile);

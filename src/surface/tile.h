@@ -121,6 +121,8 @@ typedef struct ewa_tile_job {
     bool merge_last;          ///< the last of them is all that is left
     bool with_normals, with_depth, with_opacity, with_materials, with_clips, fine_sums, count_fragments;
     bool with_small;           ///< splats of few pixels have sums of their own
+    uint8_t *blank;            ///< as ewa_render_job's
+    uint32_t first_row_px;     ///< of the band
     const ewa_gather *gather;  ///< back from pixels to colours, but for the planes; NULL: a picture is drawn
     ewa_tile_scratch *scratch; ///< [worker]
 } ewa_tile_job;

@@ -91,8 +91,12 @@ TEST_ON(test_planes_are_averages_of_the_finer_picture, 2) {
     static const uint32_t finer[] = {2, 3, 8};
     for (size_t k = 0; k < sizeof finer / sizeof *finer; k++) {
         const planes parts = make_planes((size_t)PIXELS * finer[k] * finer[k]), whole = make_planes(PIXELS);
+        // So far away that squares of the finer picture are blank: of them, too, pixels are the averages.
         const ewa_camera camera = far_camera(&bounds, 3, SIDE_PX, 1), fine = far_camera(&bounds, 3, SIDE_PX, finer[k]);
-        const ewa_render_options plain = options_of(1), options = options_of(finer[k]);
+        ewa_render_options plain = options_of(1), options = options_of(finer[k]);
+        static const float background[4] = {0.1f, 0.7f, 0.3f, 0.6f};
+        memcpy(plain.background, background, sizeof background);
+        memcpy(options.background, background, sizeof background);
         draw(context, surfels, &fine, &plain, &parts);
         draw(context, surfels, &camera, &options, &whole);
         for (uint32_t y = 0; y < SIDE_PX; y++)
