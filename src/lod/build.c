@@ -7,7 +7,10 @@
 #include "lod/assemble.h"
 #include "lod/part.h"
 
-enum { BYTES_PER_POINT = 640 }; ///< of a region that is made
+enum {
+    BYTES_PER_POINT = 640, ///< of a region that is made
+    KEPT_SHARE = 2,        ///< of the memory for decoded points, which are kept until they are distributed
+};
 
 static const ewa_option build_rows[] = {
     {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_build_options, memory_bytes), 0x1p26, 0x1p50,
@@ -37,7 +40,7 @@ static ewa_status make_region(ewa_lod_builder *b, uint32_t index, ewa_region_res
     return ewa_region_make(&b->plan, &s->distribution, &s->distribution.regions[index], result);
 }
 
-static ewa_status build(ewa_context *context, const ewa_inputs *inputs, const char *out,
+static ewa_status build(ewa_context *context, ewa_inputs *inputs, const char *out,
                         const ewa_lod_build_options *options, ewa_lod_build_stats *stats) {
     distribution_builder s = {.base = {.context = context, .get = make_region}};
     ewa_lod_builder *b = &s.base;
@@ -49,6 +52,7 @@ static ewa_status build(ewa_context *context, const ewa_inputs *inputs, const ch
     if (status == EWA_OK)
         status = ewa_distribution_make(inputs, &statistics, out, max_points, options->subset,
                                        options->subset_count, &s.distribution);
+    ewa_inputs_forget(inputs);
     const double distributed = ewa_now_s();
     if (status == EWA_OK) status = ewa_region_plan_make(context, &statistics, inputs->prototype, options->attributes, &b->plan);
     ewa_lod_region *regions = NULL;
@@ -89,7 +93,7 @@ ewa_status ewa_lod_build(ewa_context *context, const char *const *paths, uint32_
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: subset is %u of %u", chosen.subset,
                         chosen.subset_count);
     ewa_inputs inputs;
-    ewa_status status = ewa_inputs_open(context, paths, path_count, chosen.keep_going, &inputs);
+    ewa_status status = ewa_inputs_open(context, paths, path_count, chosen.keep_going, chosen.memory_bytes / KEPT_SHARE, &inputs);
     if (status == EWA_OK) status = build(context, &inputs, out, &chosen, stats);
     ewa_inputs_free(&inputs);
     return status;

@@ -201,23 +201,25 @@ static uint32_t find_position(const ewa_statistics *statistics, const ewa_cloud 
     return a;
 }
 
-/// Writes the record of a point: what varies of its numbers; `position` is find_position().
-static bool write_record(const ewa_statistics *statistics, const ewa_cloud *piece, uint32_t position, uint64_t point,
-                         const int64_t place[3], uint8_t *record) {
-    bool changed = false;
-    write_place(&statistics->lattice, place, record);
-    uint32_t k = 0;
-    for (uint32_t a = 0; a <= statistics->column_count; a++) {
-        if (a == position) continue;
-        const ewa_attribute *attribute = ewa_cloud_attribute_at(piece, a);
-        const ewa_statistics_column *column = &statistics->columns[k++];
-        const uint8_t *from = (const uint8_t *)attribute->data + point * attribute->stride_bytes;
-        if (column->constant)
-            changed |= memcmp(from, column->value, column->size_bytes) != 0;
-        else
-            memcpy(record + column->at_bytes, from, column->size_bytes);
-    }
+/// How many of the numbers that all points had are others in a part of a piece; `position` is find_position().
+static uint64_t count_changed(const ewa_statistics *statistics, const ewa_cloud *piece, uint32_t position, uint64_t first, uint64_t count) {
+    uint64_t changed = 0;
+    for (uint32_t k = 0; k < statistics->column_count; k++)
+        changed += statistics->columns[k].constant &&
+                   ewa_statistics_differs(&statistics->columns[k], ewa_cloud_attribute_at(piece, k + (k >= position)), first, count);
     return changed;
+}
+
+/// Writes the record of a point: what varies of its numbers; `position` is find_position().
+static void write_record(const ewa_statistics *statistics, const ewa_cloud *piece, uint32_t position, uint64_t point,
+                         const int64_t place[3], uint8_t *record) {
+    write_place(&statistics->lattice, place, record);
+    for (uint32_t k = 0; k < statistics->column_count; k++) {
+        const ewa_statistics_column *column = &statistics->columns[k];
+        if (column->constant) continue;
+        const ewa_attribute *attribute = ewa_cloud_attribute_at(piece, k + (k >= position));
+        memcpy(record + column->at_bytes, (const uint8_t *)attribute->data + point * attribute->stride_bytes, column->size_bytes);
+    }
 }
 
 static void sort_slice(void *data, uint32_t index, uint32_t worker) {
@@ -229,7 +231,7 @@ static void sort_slice(void *data, uint32_t index, uint32_t worker) {
     const uint64_t first = (uint64_t)index * SLICE_POINTS, left = ewa_cloud_point_count(s->piece) - first;
     const uint64_t count = left < SLICE_POINTS ? left : SLICE_POINTS;
     const uint32_t position = find_position(statistics, s->piece);
-    part->unknown_count = 0;
+    part->unknown_count = count_changed(statistics, s->piece, position, first, count);
     ewa_statistics_places(&statistics->lattice, s->piece, first, count, part->places);
     find_regions(s, part, count);
     memset(part->counts, 0, ((size_t)distribution->region_count + 1) * sizeof *part->counts);
@@ -241,7 +243,7 @@ static void sort_slice(void *data, uint32_t index, uint32_t worker) {
         const uint32_t region = part->regions[i];
         if (region == UINT32_MAX || !distribution->regions[region].wanted) continue;
         uint8_t *record = part->records + (size_t)part->counts[region]++ * statistics->record_bytes;
-        if (write_record(statistics, s->piece, position, first + i, part->places + 3 * i, record)) part->unknown_count++;
+        write_record(statistics, s->piece, position, first + i, part->places + 3 * i, record);
     }
 }
 
@@ -331,7 +333,7 @@ static ewa_status prepare(ewa_distribution *s, uint64_t max_points, uint32_t sub
     return status == EWA_OK ? find_adjacent(s) : status;
 }
 
-ewa_status ewa_distribution_make(const ewa_inputs *inputs, const ewa_statistics *statistics,
+ewa_status ewa_distribution_make(ewa_inputs *inputs, const ewa_statistics *statistics,
                                  const char *output_path, uint64_t max_points, uint32_t subset,
                                  uint32_t subset_count, ewa_distribution *distribution) {
     *distribution = (ewa_distribution){.context = inputs->context, .statistics = statistics};

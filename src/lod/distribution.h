@@ -46,7 +46,7 @@ typedef struct ewa_distribution {
 /// inputs; only those of regions `i` with i mod `subset_count` = `subset`. Free with ewa_distribution_free(),
 /// also after a failure. Errors: as ewa_inputs_read(); EWA_ERROR_LIMIT (a cell of too many points),
 /// EWA_ERROR_FORMAT (other points than the statistics have).
-ewa_status ewa_distribution_make(const ewa_inputs *inputs, const ewa_statistics *statistics,
+ewa_status ewa_distribution_make(ewa_inputs *inputs, const ewa_statistics *statistics,
                                  const char *output_path, uint64_t max_points, uint32_t subset,
                                  uint32_t subset_count, ewa_distribution *distribution);
 void ewa_distribution_free(ewa_distribution *distribution);

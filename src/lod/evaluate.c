@@ -64,47 +64,78 @@ static size_t cell_index(const int32_t cell[3]) {
     return ((size_t)cell[2] * GRID_SIDE + (size_t)cell[1]) * GRID_SIDE + (size_t)cell[0];
 }
 
-enum { BLUR_TASKS = 64 };
+enum { BLUR_TASKS = 64, NEAR_SURFELS = 64 };
+
+/// Surfels around one, so many that several can be weighed at a time; they are added in their order.
+typedef struct near_surfels {
+    float distance2[NEAR_SURFELS], facing[NEAR_SURFELS], radius2[NEAR_SURFELS];
+    const float *colors[NEAR_SURFELS];
+    uint32_t count;
+    float sum[3], weights;
+} near_surfels;
+
+/// Adds those that face the same way, and begins again with none.
+static void add_near(near_surfels *near, float exponent) {
+    float weights[NEAR_SURFELS];
+    for (uint32_t i = 0; i < near->count; i++) {
+        // Rational, so that every machine has the same bits; close to the Gaussian out to two deviations.
+        const float x = near->distance2[i] * -exponent, falling = 1 / (1 + x * (1 + x * (0.5f + x / 6)));
+        weights[i] = near->radius2[i] * falling;
+    }
+    for (uint32_t i = 0; i < near->count; i++) {
+        if (near->facing[i] <= 0) continue;
+        near->weights += weights[i];
+        for (int c = 0; c < 3; c++) near->sum[c] += weights[i] * near->colors[i][c];
+    }
+    near->count = 0;
+}
+
+/// Takes the surfels of one cell, from its first on, as neighbours of `s`.
+static void take_cell(const blur_job *job, const ewa_representative *s, uint32_t first, uint32_t cell_level, float exponent,
+                      near_surfels *near) {
+    const ewa_representatives *merged = job->merged;
+    const uint64_t prefix = ewa_code_prefix(merged->items[first].code, cell_level);
+    for (uint32_t k = first; k < merged->count && ewa_code_prefix(merged->items[k].code, cell_level) == prefix; k++) {
+        const ewa_representative *o = &merged->items[k];
+        float distance2 = 0, facing = 0;
+        for (int c = 0; c < 3; c++) {
+            const float d = (float)(o->at_world[c] - s->at_world[c]);
+            distance2 += d * d;
+            facing += o->normal[c] * s->normal[c];
+        }
+        near->distance2[near->count] = distance2, near->facing[near->count] = facing;
+        near->radius2[near->count] = o->radius_world * o->radius_world;
+        near->colors[near->count++] = o->color;
+        if (near->count == NEAR_SURFELS) add_near(near, exponent);
+    }
+}
 
 static void blur_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const blur_job *job = data;
-    const ewa_representatives *merged = job->merged;
     const uint32_t cell_level = job->level + EWA_PAGE_BITS;
     const float exponent =
         (float)(-0.5 / ((double)BLUR_CELLS * (double)BLUR_CELLS * job->cell_world * job->cell_world));
     const uint32_t count = job->end - job->first_surfel;
     const uint32_t end = job->first_surfel + (uint32_t)ewa_split(count, BLUR_TASKS, part + 1);
     for (uint32_t i = job->first_surfel + (uint32_t)ewa_split(count, BLUR_TASKS, part); i < end; i++) {
-        const ewa_representative *s = &merged->items[i];
-        int32_t cell[3];
+        const ewa_representative *s = &job->merged->items[i];
+        int32_t cell[3], low[3], high[3];
         cell_of(s->code, cell_level, cell);
-        float sum[3] = {0}, weights = 0;
-        for (int n = 0; n < 27; n++) {
-            const int32_t at[3] = {cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1};
-            if ((at[0] | at[1] | at[2]) & ~(GRID_SIDE - 1)) continue;
-            int32_t k = job->first[cell_index(at)];
-            if (k == NO_SURFEL) continue;
-            const uint64_t prefix = ewa_code_prefix(merged->items[k].code, cell_level);
-            for (;
-                 (uint32_t)k < merged->count && ewa_code_prefix(merged->items[k].code, cell_level) == prefix;
-                 k++) {
-                const ewa_representative *o = &merged->items[k];
-                float distance2 = 0, facing = 0;
-                for (int c = 0; c < 3; c++) {
-                    const float d = (float)(o->at_world[c] - s->at_world[c]);
-                    distance2 += d * d;
-                    facing += o->normal[c] * s->normal[c];
-                }
-                if (facing <= 0) continue;
-                // Rational, so that every machine has the same bits; close to the Gaussian out to two deviations.
-                const float x = distance2 * -exponent, falling = 1 / (1 + x * (1 + x * (0.5f + x / 6)));
-                const float weight = o->radius_world * o->radius_world * falling;
-                weights += weight;
-                for (int c = 0; c < 3; c++) sum[c] += weight * o->color[c];
-            }
+        for (int c = 0; c < 3; c++) {
+            low[c] = cell[c] > 0 ? cell[c] - 1 : 0;
+            high[c] = cell[c] < GRID_SIDE - 1 ? cell[c] + 1 : GRID_SIDE - 1;
         }
-        for (int c = 0; c < 3; c++) job->blurred[i][c] = weights > 0 ? sum[c] / weights : s->color[c];
+        near_surfels near;
+        near.count = 0, near.weights = near.sum[0] = near.sum[1] = near.sum[2] = 0;
+        for (int32_t z = low[2]; z <= high[2]; z++)
+            for (int32_t y = low[1]; y <= high[1]; y++) {
+                const int32_t *row = &job->first[cell_index((const int32_t[3]){0, y, z})];
+                for (int32_t x = low[0]; x <= high[0]; x++)
+                    if (row[x] != NO_SURFEL) take_cell(job, s, (uint32_t)row[x], cell_level, exponent, &near);
+            }
+        add_near(&near, exponent);
+        for (int c = 0; c < 3; c++) job->blurred[i][c] = near.weights > 0 ? near.sum[c] / near.weights : s->color[c];
     }
 }
 
@@ -195,9 +226,10 @@ static void aim(const ewa_representatives *merged, uint32_t first, uint32_t end,
     m[11] += 4 * side_world;
 }
 
-/// Makes surfels of a range of a list, with shown colours, or with colours moved against their neighbourhood.
+/// Makes surfels of a range of a list, with shown colours, or with colours moved against their neighbourhood; `unit_coverage` 0:
+/// measured.
 static ewa_status pack(ewa_evaluator *evaluator, const ewa_representatives *list, uint32_t first,
-                       uint32_t end, float radius_scale, const float (*blurred)[3], ewa_surfels **surfels) {
+                       uint32_t end, float radius_scale, const float (*blurred)[3], float unit_coverage, ewa_surfels **surfels) {
     enum { FLOATS = 3 + 3 + 1 + 4 };
     const uint32_t count = end - first;
     EWA_TRY(ewa_buffer_reserve(evaluator->context, &evaluator->chosen, count, FLOATS * sizeof(float)));
@@ -224,7 +256,7 @@ static ewa_status pack(ewa_evaluator *evaluator, const ewa_representatives *list
     if (status == EWA_OK) status = ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, stream + 3, stride);
     if (status == EWA_OK) status = ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, stream + 6, stride);
     if (status == EWA_OK) status = ewa_cloud_borrow(cloud, EWA_COLOR, EWA_F32, 3, stream + 7, stride);
-    if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, surfels);
+    if (status == EWA_OK) status = ewa_surfels_create_covering(cloud, &options, (double)unit_coverage, surfels);
     ewa_cloud_destroy(&cloud);
     return status;
 }
@@ -232,7 +264,7 @@ static ewa_status pack(ewa_evaluator *evaluator, const ewa_representatives *list
 ewa_status ewa_representatives_cover(ewa_evaluator *evaluator, const ewa_representatives *representatives,
                                      float *unit_coverage) {
     ewa_surfels *surfels = NULL;
-    const ewa_status status = pack(evaluator, representatives, 0, representatives->count, 1, NULL, &surfels);
+    const ewa_status status = pack(evaluator, representatives, 0, representatives->count, 1, NULL, 0, &surfels);
     *unit_coverage = status == EWA_OK ? (float)surfels->unit_coverage : 0;
     ewa_surfels_destroy(&surfels);
     return status;
@@ -304,8 +336,8 @@ static ewa_status try_scales(ewa_evaluator *evaluator, const ewa_camera *camera,
         for (int sharp = 0; sharp < 2 && status == EWA_OK; sharp++) {
             ewa_surfels *surfels = NULL;
             EWA_TRY(pack(evaluator, merged, first, end, RADIUS_SCALES[k],
-                         sharp ? (const float(*)[3])evaluator->blurred.data : NULL, &surfels));
-            surfels->unit_coverage = (double)(unit_coverage * RADIUS_SCALES[k] * RADIUS_SCALES[k]);
+                         sharp ? (const float(*)[3])evaluator->blurred.data : NULL,
+                         unit_coverage * RADIUS_SCALES[k] * RADIUS_SCALES[k], &surfels));
             status = draw(evaluator, camera, &surfels, 1, pictures[sharp]);
             ewa_surfels_destroy(&surfels);
         }
@@ -336,11 +368,9 @@ ewa_status ewa_representatives_evaluate(ewa_evaluator *evaluator, const ewa_repr
     for (uint32_t i = 0; i < child_count && status == EWA_OK; i++) {
         find_range(&children[i], prefix, window_level, &first, &end);
         if (end == first) continue;
-        status = pack(evaluator, &children[i], first, end, children[i].radius_scale, NULL, &surfels[i]);
+        const float known = children[i].unit_coverage * children[i].radius_scale * children[i].radius_scale;
+        status = pack(evaluator, &children[i], first, end, children[i].radius_scale, NULL, known, &surfels[i]);
         if (status != EWA_OK) break;
-        if (children[i].unit_coverage > 0)
-            surfels[i]->unit_coverage =
-                (double)(children[i].unit_coverage * children[i].radius_scale * children[i].radius_scale);
         coverage =
             surfels[i]->unit_coverage / ((double)children[i].radius_scale * (double)children[i].radius_scale);
     }

@@ -9,7 +9,7 @@
 #include "lod/cell_borders.h"
 #include "lod/tree.h"
 #include "surface/levels.h"
-#include "surface/proxy.h"
+#include "surface/packets.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -141,11 +141,9 @@ static ewa_status make_surfels(const ewa_lod *lod, const ewa_lod_appearance *app
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
     options.radius_scale = radius_scale * appearance->radius_scale;
-    EWA_TRY(ewa_surfels_create(cloud, &options, surfels));
     // What the file says of its surface no longer holds where it is pressed together.
-    if (lod->levels.unit_coverage > 0 && ewa_cell_is_similar(appearance->to_world))
-        ewa_surfels_set_unit_coverage(*surfels, lod->levels.unit_coverage * options.radius_scale * options.radius_scale);
-    return EWA_OK;
+    const double said = ewa_cell_is_similar(appearance->to_world) ? lod->levels.unit_coverage * options.radius_scale * options.radius_scale : 0;
+    return ewa_surfels_create_covering(cloud, &options, said, surfels);
 }
 
 static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const ewa_lod_node *node, ewa_surfels **surfels) {

@@ -76,6 +76,27 @@ typedef struct cloud_job {
     target *targets;
 } cloud_job;
 
+/// Copies `count` numbers of one size that are `stride_bytes` apart.
+#define DEFINE_COPY(size)                                                                                        \
+    static void copy_##size(uint8_t *to, const uint8_t *from, size_t stride_bytes, uint32_t count) {             \
+        for (uint32_t i = 0; i < count; i++) memcpy(to + (size_t)i * (size), from + i * stride_bytes, (size));   \
+    }
+
+DEFINE_COPY(1)
+DEFINE_COPY(2)
+DEFINE_COPY(4)
+DEFINE_COPY(12)
+
+static void copy_numbers(uint8_t *to, uint32_t size_bytes, const uint8_t *from, size_t stride_bytes, uint32_t count) {
+    switch (size_bytes) {
+    case 1: copy_1(to, from, stride_bytes, count); return;
+    case 2: copy_2(to, from, stride_bytes, count); return;
+    case 4: copy_4(to, from, stride_bytes, count); return;
+    case 12: copy_12(to, from, stride_bytes, count); return;
+    }
+    for (uint32_t i = 0; i < count; i++) memcpy(to + (size_t)i * size_bytes, from + i * stride_bytes, size_bytes);
+}
+
 static void fill_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const cloud_job *job = data;
@@ -84,20 +105,23 @@ static void fill_task(void *data, uint32_t task, uint32_t worker) {
     const uint32_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
     for (uint32_t t = 0; t < job->target_count; t++) {
         const target *made = &job->targets[t];
-        for (uint32_t i = first; i < end; i++) {
-            const uint8_t *record = job->records + (size_t)i * job->plan->record_bytes;
-            uint8_t *to = made->to + (size_t)i * made->size_bytes;
-            if (made->from == FROM_COLUMN) {
-                memcpy(to, find_numbers(job->plan, record, made->column), made->size_bytes);
-            } else if (made->from == FROM_BEHIND) {
-                memcpy(to, record + made->at_bytes, made->size_bytes);
-            } else {
-                double place[3];
-                for (int c = 0; c < 3; c++)
-                    place[c] = (double)(lattice->low[c] + (int64_t)ewa_record_place(record, c)) *
-                               lattice->step_world;
-                memcpy(to, place, sizeof place);
-            }
+        const size_t record_bytes = job->plan->record_bytes;
+        const uint8_t *record = job->records + first * record_bytes;
+        uint8_t *to = made->to + (size_t)first * made->size_bytes;
+        if (made->from == FROM_COLUMN) {
+            const bool constant = job->plan->statistics->columns[made->column].constant;
+            copy_numbers(to, made->size_bytes, find_numbers(job->plan, record, made->column), constant ? 0 : record_bytes, end - first);
+            continue;
+        }
+        if (made->from == FROM_BEHIND) {
+            copy_numbers(to, made->size_bytes, record + made->at_bytes, record_bytes, end - first);
+            continue;
+        }
+        for (uint32_t i = first; i < end; i++, record += record_bytes, to += 3 * sizeof(double)) {
+            double place[3];
+            for (int c = 0; c < 3; c++)
+                place[c] = (double)(lattice->low[c] + (int64_t)ewa_record_place(record, c)) * lattice->step_world;
+            memcpy(to, place, sizeof place);
         }
     }
 }

@@ -75,6 +75,33 @@ uint64_t ewa_statistics_places(const ewa_lattice *lattice, const ewa_cloud *piec
     return left_out_count;
 }
 
+/// Whether some of `count` groups of bytes behind each other are others than `value`: without a branch, several at a time.
+#define DEFINE_DIFFERS(type)                                                                                 \
+    static bool differs_##type(const uint8_t *bytes, uint64_t count, const uint8_t *value) {                 \
+        type all = 0, number, wanted;                                                                        \
+        memcpy(&wanted, value, sizeof wanted);                                                               \
+        for (uint64_t i = 0; i < count; i++) {                                                               \
+            memcpy(&number, bytes + i * sizeof number, sizeof number);                                       \
+            all |= (type)(number ^ wanted);                                                                  \
+        }                                                                                                    \
+        return all != 0;                                                                                     \
+    }
+
+DEFINE_DIFFERS(uint8_t)
+DEFINE_DIFFERS(uint16_t)
+DEFINE_DIFFERS(uint32_t)
+
+bool ewa_statistics_differs(const ewa_statistics_column *column, const ewa_attribute *attribute, uint64_t first, uint64_t count) {
+    const uint8_t *bytes = (const uint8_t *)attribute->data + first * attribute->stride_bytes;
+    const size_t dense_bytes = attribute->stride_bytes == column->size_bytes ? column->size_bytes : 0;
+    if (dense_bytes == 1) return differs_uint8_t(bytes, count, column->value);
+    if (dense_bytes == 2) return differs_uint16_t(bytes, count, column->value);
+    if (dense_bytes == 4) return differs_uint32_t(bytes, count, column->value);
+    for (uint64_t i = 0; i < count; i++)
+        if (memcmp(bytes + i * attribute->stride_bytes, column->value, column->size_bytes) != 0) return true;
+    return false;
+}
+
 static inline uint64_t mix(const int64_t cell[3]) {
     uint64_t h = (uint64_t)cell[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)cell[1] * 0xc2b2ae3d27d4eb4fu ^
                  (uint64_t)cell[2] * 0x165667b19e3779f9u;
@@ -100,10 +127,7 @@ static void look_for_changes(const statistics_job *s, uint64_t first, uint64_t c
         if (strcmp(attribute->name, EWA_POSITION) == 0) continue;
         const ewa_statistics_column *known = &s->statistics->columns[column];
         bool *changed = &varies[column++];
-        const uint8_t *bytes = (const uint8_t *)attribute->data + first * attribute->stride_bytes;
-        *changed = !known->constant;
-        for (uint64_t i = 0; i < count && !*changed; i++)
-            *changed = memcmp(bytes + i * attribute->stride_bytes, known->value, known->size_bytes) != 0;
+        *changed = !known->constant || ewa_statistics_differs(known, attribute, first, count);
     }
 }
 
@@ -331,7 +355,7 @@ static ewa_status grow_box(void *user, const ewa_cloud *piece) {
 }
 
 /// Chooses the steps of the coordinates: those of the files, or decimal ones, 10^8 or more of which make the box.
-static ewa_status choose_steps(const ewa_inputs *inputs, ewa_lattice *lattice) {
+static ewa_status choose_steps(ewa_inputs *inputs, ewa_lattice *lattice) {
     ewa_coordinate_grid grid;
     ewa_cloud_grid(inputs->prototype, &grid);
     if (inputs->has_grid) {
@@ -356,7 +380,7 @@ static ewa_status choose_steps(const ewa_inputs *inputs, ewa_lattice *lattice) {
     return status;
 }
 
-ewa_status ewa_statistics_make(const ewa_inputs *inputs, ewa_statistics *statistics) {
+ewa_status ewa_statistics_make(ewa_inputs *inputs, ewa_statistics *statistics) {
     enum { COARSER = 10, TRIES = 12 };
     *statistics = (ewa_statistics){0};
     EWA_TRY(make_columns(inputs, statistics));

@@ -40,8 +40,11 @@ typedef struct ewa_statistics {
 } ewa_statistics;
 
 /// Reads all points. Free with ewa_statistics_free(), also after a failure.
-ewa_status ewa_statistics_make(const ewa_inputs *inputs, ewa_statistics *statistics);
+ewa_status ewa_statistics_make(ewa_inputs *inputs, ewa_statistics *statistics);
 void ewa_statistics_free(ewa_context *context, ewa_statistics *statistics);
+
+/// Whether some of `count` points from point `first` on have another number than all others, as the column has it.
+bool ewa_statistics_differs(const ewa_statistics_column *column, const ewa_attribute *attribute, uint64_t first, uint64_t count);
 
 /// Whole-number places of `count` points of a piece from point `first` on, 3 each; those that are not finite get
 /// EWA_NOWHERE and are counted.

@@ -297,7 +297,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
                                   fits ? s->packets : NULL, &b->order));
     s->unit = choose_unit(b);
     EWA_TRY(encode(b, context));
-    s->unit_coverage = ewa_packets_unit_coverage(s);
+    if (!(s->unit_coverage > 0) || !isfinite(s->unit_coverage)) s->unit_coverage = ewa_packets_unit_coverage(s);
     ewa_packets_sum_up(s);
     if (b->keep_points) {
         const size_t lanes = (size_t)s->packet_count * LANES;
@@ -308,7 +308,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     return ewa_extras_make(context, s, &b->reader, b->point_count, b->order.points);
 }
 
-static ewa_status create(const ewa_cloud *cloud, const ewa_surfels_options *options, bool keep_points,
+static ewa_status create(const ewa_cloud *cloud, const ewa_surfels_options *options, bool keep_points, double unit_coverage,
                          ewa_surfels **surfels) {
     if (!surfels) return EWA_ERROR_ARGUMENT;
     *surfels = NULL;
@@ -325,6 +325,7 @@ static ewa_status create(const ewa_cloud *cloud, const ewa_surfels_options *opti
     }
     made->context = context;
     made->cutoff = chosen.cutoff;
+    made->unit_coverage = unit_coverage;
     b->keep_points = keep_points;
     b->surfels = made;
     b->point_count = ewa_cloud_point_count(cloud);
@@ -347,9 +348,13 @@ static ewa_status create(const ewa_cloud *cloud, const ewa_surfels_options *opti
 }
 
 ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options, ewa_surfels **surfels) {
-    return create(cloud, options, false, surfels);
+    return create(cloud, options, false, 0, surfels);
+}
+
+ewa_status ewa_surfels_create_covering(const ewa_cloud *cloud, const ewa_surfels_options *options, double unit_coverage, ewa_surfels **surfels) {
+    return create(cloud, options, false, unit_coverage, surfels);
 }
 
 ewa_status ewa_surfels_create_kept(const ewa_cloud *cloud, const ewa_surfels_options *options, ewa_surfels **surfels) {
-    return create(cloud, options, true, surfels);
+    return create(cloud, options, true, 0, surfels);
 }

@@ -59,6 +59,9 @@ enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uin
 /// ewa_surfels_create() of surfels that remember their points: `points` of the first level.
 ewa_status ewa_surfels_create_kept(const ewa_cloud *cloud, const ewa_surfels_options *options, ewa_surfels **surfels);
 
+/// ewa_surfels_create() of surfels whose unit coverage is known; 0: measured.
+ewa_status ewa_surfels_create_covering(const ewa_cloud *cloud, const ewa_surfels_options *options, double unit_coverage, ewa_surfels **surfels);
+
 /// Makes room for `packet_count` packets, zero bounds included, instead of those that were there.
 ewa_status ewa_packets_allocate(ewa_surfels *surfels, uint32_t packet_count);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Octrees made of files: every point is there once, as it was, for any number of threads; and odd inputs.
+#include "lod/inputs.h"
 #include "lod/lod_scene.h"
 
 #include <math.h>
@@ -298,6 +299,60 @@ TEST_WITHIN(test_refusals, enter, NULL) {
     options.memory_bytes = 1 << 20;
     assert_int_equal(lod_build(context, names, 1, "o.copc.laz", &options, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(lod_clear(), 1);
+}
+
+/// Points of a reading, and a number that says in which order.
+typedef struct seen {
+    uint64_t count;
+    double order;
+} seen;
+
+static ewa_status see(void *user, const ewa_cloud *piece) {
+    seen *s = user;
+    const ewa_attribute *position = ewa_cloud_find(piece, EWA_POSITION);
+    double origin[3];
+    ewa_cloud_origin(piece, origin);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(piece); i++) {
+        double at[3];
+        ewa_attribute_read_f64(position, i, 1, at);
+        s->order = s->order * 0.999 + at[0] + origin[0];
+        s->count++;
+    }
+    return EWA_OK;
+}
+
+/// Which files are read again: those that did not fit, and all behind them. A file that is gone tells.
+TEST_WITHIN(test_pieces_are_kept, enter, NULL) {
+    enum { COUNT = 1000 };
+    static const struct {
+        uint64_t keep_bytes;
+        bool kept[2];
+    } cases[] = {{0, {false, false}}, {COUNT * 80, {true, false}}, {COUNT * 160, {true, true}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int gone = 0; gone < 2; gone++) {
+            OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+            static const char *const names[2] = {"a.laz", "b.laz"};
+            char paths[2][512];
+            for (int k = 0; k < 2; k++) {
+                lod_save(lod_ground(context, (uint64_t)k * COUNT, COUNT, (lod_look){.colors = true}), names[k]);
+                scratch_path(names[k], paths[k]);
+            }
+            const char *const both[2] = {paths[0], paths[1]};
+            ewa_inputs inputs;
+            seen first = {0, 0}, again = {0, 0};
+            assert_int_equal(ewa_inputs_open(context, both, 2, false, cases[i].keep_bytes, &inputs), EWA_OK);
+            assert_int_equal(ewa_inputs_read(&inputs, "first", see, &first), EWA_OK);
+            assert_true(inputs.kept_bytes <= cases[i].keep_bytes);
+            remove(paths[gone]);
+            const bool kept = cases[i].kept[gone];
+            assert_int_equal(ewa_inputs_read(&inputs, "again", see, &again), kept ? EWA_OK : EWA_ERROR_IO);
+            assert_int_equal(first.count, 2 * COUNT);
+            if (kept) assert_true(again.count == first.count && again.order == first.order);
+            ewa_inputs_forget(&inputs);
+            assert_int_equal(ewa_inputs_read(&inputs, "forgotten", see, &again), EWA_ERROR_IO);
+            ewa_inputs_free(&inputs);
+        }
+    lod_clear();
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
