@@ -356,6 +356,59 @@ TEST_ON(test_parts_by_default, 2) {
     assert_true(before_db > 30);
 }
 
+static double rms(const shot *a, const shot *b) {
+    double sum = 0;
+    for (size_t i = 0; i < NUMBERS; i++) sum += pow(a->rgba8[i] - b->rgba8[i], 2);
+    return sqrt(sum / NUMBERS);
+}
+
+/// The pictures of one camera by default, with one part and with two.
+typedef struct trio {
+    shot *chosen, *one, *two;
+} trio;
+
+static trio draw_trio(ewa_lod *lod, ewa_context *context, double distance) {
+    const ewa_camera camera = camera_at(distance);
+    return (trio){draw_parts(lod, context, &camera, NULL, 0), draw_parts(lod, context, &camera, NULL, 1),
+                  draw_parts(lod, context, &camera, NULL, 2)};
+}
+
+static void free_trio(trio *of) { free(of->chosen), free(of->one), free(of->two); }
+
+static bool same_shots(const shot *a, const shot *b) { return memcmp(a->rgba8, b->rgba8, sizeof a->rgba8) == 0; }
+
+/// Finds how far away the picture is no longer that of one part, or is that of two.
+static double find_change(ewa_lod *lod, ewa_context *context, double low, double high, bool to_two) {
+    for (int i = 0; i < 12; i++) {
+        const double middle = sqrt(low * high);
+        trio made = draw_trio(lod, context, middle);
+        const bool before = to_two ? !same_shots(made.chosen, made.two) : same_shots(made.chosen, made.one);
+        *(before ? &low : &high) = middle;
+        free_trio(&made);
+    }
+    return high;
+}
+
+/// Going away, parts of pixels come in bit by bit: nowhere does a picture differ much from the one of slightly nearer.
+TEST_ON(test_parts_take_over_gradually, 2) {
+    OWNED(ewa_lod_close) ewa_lod *lod = open_file(context, file);
+    const double from = find_change(lod, context, 2, 20, false), to = find_change(lod, context, from, 1.4 * from, true);
+    print_message("two parts from %.3f to %.3f\n", from, to);
+    assert_true(to > 1.05 * from && to < 1.15 * from);
+    const double between[] = {from * 1.001, sqrt(from * to), to * 0.999};
+    double off_one[3], off_two[3];
+    for (int i = 0; i < 3; i++) {
+        trio made = draw_trio(lod, context, between[i]);
+        const double whole = rms(made.one, made.two);
+        off_one[i] = rms(made.chosen, made.one) / whole, off_two[i] = rms(made.chosen, made.two) / whole;
+        print_message("%.3f: of %.2f/255 %.2f from one part, %.2f from two\n", between[i], whole, off_one[i], off_two[i]);
+        assert_true(whole > 0.5);
+        free_trio(&made);
+    }
+    assert_true(off_one[0] < 0.1 && off_two[2] < 0.1);
+    assert_true(off_one[1] > 0.25 && off_one[1] < 0.75 && off_two[1] > 0.25 && off_two[1] < 0.75);
+}
+
 /// Bands know as little of each other's nodes as ranks do, and come to as many parts.
 TEST_ON(test_supersampling_in_bands, 2) {
     const ewa_camera camera = camera_at(2.2);
