@@ -19,6 +19,22 @@ static uint32_t tile_side_px(const ewa_camera *camera, uint64_t splat_count) {
                                                                                                      : 64;
 }
 
+/// Whether a fair share of what is drawn lies in tiles that are too full for their splats to be kept from pass to pass.
+static bool is_crowded(const ewa_tile_job *job) {
+    enum { SHARE = 8 };
+    uint64_t all = 0, crowded = 0;
+    for (uint32_t tile = 0; tile < ewa_tiles_count(&job->tiles); tile++) {
+        uint64_t packets = 0;
+        for (uint32_t i = 0; i < job->source_count; i++) {
+            const uint64_t *first = &job->sources[i].bins.lists.starts[tile];
+            packets += first[1] - first[0];
+        }
+        all += packets;
+        if (packets * EWA_PACKET_LANES > EWA_KEPT_RECORDS) crowded += packets;
+    }
+    return SHARE * crowded > all;
+}
+
 typedef struct cpu_state {
     ewa_context *context;
     ewa_job_room room;
@@ -68,10 +84,13 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     const double start_s = ewa_now_s();
     uint64_t splat_count = 0;
     for (uint32_t i = 0; i < frame->source_count; i++) splat_count += frame->sources[i].surfels->count;
-    const uint32_t side_px = frame->tile_px ? frame->tile_px : tile_side_px(&frame->camera, splat_count);
+    uint32_t side_px = frame->tile_px ? frame->tile_px : tile_side_px(&frame->camera, splat_count);
     ewa_tile_job job;
-    EWA_TRY(ewa_tile_job_make(context, &cpu->room, frame, side_px, &job));
-    EWA_TRY(ewa_tile_job_bin(context, &cpu->room, &job));
+    for (;; side_px /= 2) {
+        EWA_TRY(ewa_tile_job_make(context, &cpu->room, frame, side_px, &job));
+        EWA_TRY(ewa_tile_job_bin(context, &cpu->room, &job));
+        if (frame->tile_px || side_px <= EWA_DENSE_TILE_PX || !is_crowded(&job)) break;
+    }
     job.scratch = cpu->scratch;
     job.blank = frame->blank, job.first_row_px = frame->first_row_px;
     const double binned_s = ewa_now_s();
