@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Pixels drawn as several and averaged: the averages of the finer picture, plane by plane; the same bytes for threads,
-// bands and instruction sets; the reference; how many parts a frame's surfels ask for; what is refused.
+// bands and instruction sets; tiles that are too full; the reference; how many parts a frame's surfels ask for; what is refused.
 #include "check.h"
 #include "quality/far_scene.h"
 #include "reference/surface.h"
@@ -165,6 +165,31 @@ TEST_ON(test_bands_of_parts_end_where_they_should, 0) {
         }
     assert_true(shown > 100);
     free(whole);
+}
+
+/// What a tile has no room to keep would be set up again and again: such tiles are halved, and the bytes stay.
+TEST_ON(test_crowded_tiles_are_halved, 2) {
+    enum { CROWD_PX = 64, COUNT = 600000 };
+    static const uint32_t sides_px[] = {0, 32, 64};
+    ewa_bounds bounds;
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, COUNT, &bounds);
+    const ewa_camera camera = far_camera(&bounds, 1, CROWD_PX, 1);
+    ewa_render_options options = options_of(1);
+    options.eye_dome = 0.5;
+    planes made[3];
+    uint64_t drawn[3];
+    for (int i = 0; i < 3; i++) {
+        OWNED(ewa_renderer_destroy) ewa_renderer *renderer = check_renderer(context);
+        made[i] = make_planes((size_t)CROWD_PX * CROWD_PX);
+        ewa_render_stats stats;
+        ewa_renderer_set_tile(renderer, sides_px[i]);
+        assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &made[i].frame, &stats), EWA_OK);
+        drawn[i] = stats.drawn_count;
+    }
+    print_message("%llu records, %llu in tiles of 64 pixels\n", (unsigned long long)drawn[0], (unsigned long long)drawn[2]);
+    assert_true(same_planes(&made[0], &made[1]) && same_planes(&made[0], &made[2]));
+    assert_true(drawn[0] == drawn[1] && drawn[0] > drawn[2]); // those across a side count twice
+    for (int i = 0; i < 3; i++) free(made[i].memory);
 }
 
 TEST_ON(test_reference_draws_the_same, 2) {
