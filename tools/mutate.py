@@ -110,6 +110,7 @@ NEAR = [
     ("src/scene/coloring", ["coloring", "scene", "cli_filter"]),
     ("src/scene/file", ["scene_file", "cli_render"]), ("src/scene/save", ["scene_file"]),
     ("src/scene/octree", ["scene_octree", "cli_lod"]),
+    ("src/scene/streamed", ["gaussian_streams"]),
     ("src/scene", ["scene", "scene_file", "scene_octree", "planes", "cli_render", "cli_gaussians", "cli_volume", "view_scripts"]),
     ("src/lod", ["lod_merge", "lod_cut", "lod_build", "scene_octree", "lod_draw", "lod_levels", "lod_borders", "lod_parts", "cli_lod"]),
     ("src/cluster", ["joint", "parts"]),

@@ -257,8 +257,8 @@ ewa_status ewa_joint_gather(ewa_joint *joint) {
         uint32_t size_bytes = 0;
         if (from->size_bytes >= sizeof size_bytes) memcpy(&size_bytes, from->data, sizeof size_bytes);
         if (size_bytes < sizeof size_bytes || size_bytes > from->size_bytes)
-            return ewa_fail(context, EWA_ERROR_FORMAT, "render: rank %u has sent %zu bytes too few",
-                            tiles->incoming[p].rank, size_bytes - from->size_bytes);
+            return ewa_fail(context, EWA_ERROR_FORMAT, "render: of a contribution of %u bytes rank %u has sent %zu", size_bytes,
+                            tiles->incoming[p].rank, from->size_bytes);
         joint->incoming_sums[p] = from->data;
         *from = (ewa_parcel){(char *)from->data + size_bytes, from->size_bytes - size_bytes};
     }

@@ -291,6 +291,24 @@ TEST(test_shells) {
     assert_int_equal(view_of_shell(1, 1, wide, 1, EWA_UP_Z_SURVEYED), EWA_VIEW_FRONT);
 }
 
+/// Of one place only the convention of its format says what is up.
+TEST(test_one_place) {
+    const disc one = {{1, 2, 3}, 0.1, {0, 0, 1}};
+    static const struct {
+        ewa_up_convention convention;
+        int axis;
+    } rows[] = {{EWA_UP_Y_REQUIRED, 1}, {EWA_UP_Z_SURVEYED, 2}};
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(&one, 1);
+    OWNED(ewa_framing_destroy) ewa_framing *framing = NULL;
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    for (int i = 0; i < 2; i++) {
+        ewa_upright upright;
+        ewa_framing_choose(framing, rows[i].convention, &upright);
+        assert_int_equal(upright.axis, rows[i].axis);
+        assert_string_equal(upright.why, "there is one place only");
+    }
+}
+
 /// In a wide lens, too, what is framed are balls, each as large as its disc: the outermost ones meet the sides of the room.
 TEST(test_balls_in_a_wide_lens) {
     static const double direction[3] = {0.3, 1, -0.2}, up[3] = {0, 0, 1};

@@ -222,6 +222,31 @@ CASE(test_grids) {
     positions[3] = 4200001.654321;
     OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "grid.las", NULL, NULL, NULL);
     assert_true(las_world(back, 0, 0) == 4200000.123456 && las_world(back, 1, 0) == 4200001.654321);
+    // Steps so fine that whole numbers are too far away for an offset.
+    OWNED(ewa_cloud_destroy) ewa_cloud *tiny = make_cloud(2, &positions);
+    for (int i = 0; i < 6; i++) positions[i] = i < 3 ? 0.45 : 0.55;
+    options.step_world = 1e-10;
+    OWNED(ewa_cloud_destroy) ewa_cloud *fine = save_and_load(tiny, "fine.las", &options, NULL, NULL);
+    assert_float_equal(las_world(fine, 0, 0), 0.45, 1e-10);
+    assert_float_equal(las_world(fine, 1, 0), 0.55, 1e-10);
+}
+
+/// Intensities that are shares of the brightest use all of the 16 bits.
+CASE(test_shares_as_intensities) {
+    for (int wide = 0; wide < 2; wide++) {
+        double *positions;
+        void *to;
+        OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_cloud(2, &positions);
+        assert_int_equal(ewa_cloud_add(cloud, "intensity", wide ? EWA_F64 : EWA_F32, 1, &to), EWA_OK);
+        for (int i = 0; i < 2; i++) wide ? (((double *)to)[i] = i ? 1 : 0.25) : (((float *)to)[i] = i ? 1 : 0.25f);
+        OWNED(check_free) uint8_t *bytes = NULL;
+        size_t size_bytes = 0;
+        OWNED(ewa_cloud_destroy) ewa_cloud *back = save_and_load(cloud, "shares.las", NULL, &bytes, &size_bytes);
+        const size_t at = (size_t)las_get(bytes + 96, 4), record_bytes = (size_t)las_get(bytes + 105, 2);
+        assert_float_equal(las_get(bytes + at + 12, 2), 0.25 * 65535, 1);
+        assert_int_equal(las_get(bytes + at + record_bytes + 12, 2), 65535);
+        assert_true(las_value(back, "intensity", 0, 0) == 0.25); // as it was, in bytes of its own
+    }
 }
 
 CASE(test_points_without_a_place) {
