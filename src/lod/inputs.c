@@ -121,6 +121,16 @@ static ewa_status take_piece(reading *r, const ewa_cloud *piece, uint64_t count)
     return ewa_progress(r->inputs->context, r->stage, (double)r->done / (double)r->inputs->max_points);
 }
 
+/// Whether all points of a file fit into what is left, as far as its head says.
+static bool has_room(const ewa_inputs *inputs, const ewa_cloud_reader *reader) {
+    uint64_t point_bytes = 1;
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(inputs->prototype); a++) {
+        const ewa_attribute *attribute = ewa_cloud_attribute_at(inputs->prototype, a);
+        point_bytes += attribute->component_count * ewa_type_bytes(attribute->type);
+    }
+    return ewa_cloud_reader_maximum_points(reader) <= (inputs->keep_bytes - inputs->kept_bytes) / point_bytes;
+}
+
 /// Reads a file; keeps all of its pieces, as long as those of the files before it are kept, or none.
 static ewa_status read_file(reading *r, uint32_t file) {
     ewa_inputs *inputs = r->inputs;
@@ -130,6 +140,7 @@ static ewa_status read_file(reading *r, uint32_t file) {
     const uint64_t bytes_before = inputs->kept_bytes;
     bool keeps = inputs->kept_files == file;
     ewa_status status = ewa_cloud_reader_open(inputs->context, inputs->paths[file], &inputs->options, &reader);
+    keeps = keeps && status == EWA_OK && has_room(inputs, reader);
     while (status == EWA_OK) {
         status = ewa_cloud_reader_next(reader, EWA_INPUT_PIECE_POINTS, &piece);
         if (status != EWA_OK || !piece) break;
