@@ -104,7 +104,7 @@
 // of weight q = q_f + q_b; where one of these is 0, the other's. The mean goes over from one to the other as
 // s grows, however little weight either has. At sharp edges the far side's discs reach past the near side's
 // and lie in front of them there; without this they draw a rim in the far side's colour, with its normals
-// turned over. Alpha, coverage and visibility do not depend on which way normals point.
+// turned over. But near contours (section 5) alpha and coverage do not depend on which way normals point.
 //
 // ---- Section 7: resolve, alpha, shading
 //
