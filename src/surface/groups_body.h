@@ -362,6 +362,34 @@ static inline void mean_normal(const group_members *of, const wf own[3], wf norm
     for (int c = 0; c < 3; c++) normal[c] = wf_select(sound, wf_mul(sum[c], inverse), own[c]);
 }
 
+/// The member of a group that is nearest to its middle, of those with clip lines if there are any.
+typedef struct nearest_member {
+    wf place[3], normal[3], sigma, share, picked;
+    wf distance[EWA_GROUP_SURFELS]; ///< of all, from the middle
+} nearest_member;
+
+static void find_nearest(const ewa_groups *groups, const group_members *of, const wf middle[3], nearest_member *found) {
+    const wf zero = wf_set(0);
+    wf nearest = wf_set(INFINITY);
+    found->sigma = found->share = found->picked = zero;
+    for (int c = 0; c < 3; c++) found->place[c] = found->normal[c] = zero;
+    for (int m = 0; m < EWA_GROUP_SURFELS; m++) {
+        wf way[3];
+        for (int c = 0; c < 3; c++) way[c] = wf_sub(of->place[m][c], middle[c]);
+        const wf square = dot(way, way);
+        found->distance[m] = wf_sqrt(square);
+        const wm nearer = wm_and(wf_lt(square, nearest), wm_or(of->clipped[m], wm_not(of->any_clipped)));
+        nearest = wf_select(nearer, square, nearest);
+        for (int c = 0; c < 3; c++) {
+            found->place[c] = wf_select(nearer, of->place[m][c], found->place[c]);
+            found->normal[c] = wf_select(nearer, of->normal[m][c], found->normal[c]);
+        }
+        found->sigma = wf_select(nearer, of->sigma[m], found->sigma);
+        found->share = wf_select(nearer, of->share[m], found->share);
+        found->picked = wf_select(nearer, wf_of_bits(wi_load(groups->lanes[m])), found->picked);
+    }
+}
+
 static void represent(const ewa_window *window, const ewa_window_means *means, const ewa_groups *groups, float cutoff,
                       float growth, ewa_representatives *made) {
     const wf zero = wf_set(0);
@@ -382,56 +410,40 @@ static void represent(const ewa_window *window, const ewa_window_means *means, c
     wf middle[3] = {zero, zero, zero};
     for (int m = 0; m < EWA_GROUP_SURFELS; m++)
         for (int c = 0; c < 3; c++) middle[c] = wf_fma(of.share[m], of.place[m][c], middle[c]);
-
-    // The nearest member, of those with clip lines if there are any.
-    wf distance[EWA_GROUP_SURFELS], nearest = wf_set(INFINITY), place[3], own[3], sigma = zero, share = zero, picked = zero;
-    for (int c = 0; c < 3; c++) place[c] = own[c] = zero;
-    for (int m = 0; m < EWA_GROUP_SURFELS; m++) {
-        wf way[3];
-        for (int c = 0; c < 3; c++) way[c] = wf_sub(of.place[m][c], middle[c]);
-        const wf square = dot(way, way);
-        distance[m] = wf_sqrt(square);
-        const wm nearer = wm_and(wf_lt(square, nearest), wm_or(of.clipped[m], wm_not(of.any_clipped)));
-        nearest = wf_select(nearer, square, nearest);
-        for (int c = 0; c < 3; c++) {
-            place[c] = wf_select(nearer, of.place[m][c], place[c]);
-            own[c] = wf_select(nearer, of.normal[m][c], own[c]);
-        }
-        sigma = wf_select(nearer, of.sigma[m], sigma), share = wf_select(nearer, of.share[m], share);
-        picked = wf_select(nearer, wf_of_bits(wi_load(groups->lanes[m])), picked);
-    }
+    nearest_member own;
+    find_nearest(groups, &of, middle, &own);
     wf normal[3];
-    mean_normal(&of, own, normal);
+    mean_normal(&of, own.normal, normal);
     wf reach = zero, height = zero, spread = zero, raised = zero, square = zero;
     for (int m = 0; m < EWA_GROUP_SURFELS; m++) {
         wf way[3];
         for (int c = 0; c < 3; c++) way[c] = wf_sub(of.place[m][c], middle[c]);
         height = wf_max(height, wf_abs(dot(way, normal)));
-        spread = wf_max(spread, distance[m]);
+        spread = wf_max(spread, own.distance[m]);
         // Where surfels lie upon each other the area is not that of what they cover.
-        reach = wf_max(reach, wf_fma(wf_set(4 / cutoff), distance[m], of.sigma[m]));
+        reach = wf_max(reach, wf_fma(wf_set(4 / cutoff), own.distance[m], of.sigma[m]));
         // How far the surface lies above the middle: half of what the members' planes are above it, which is exact where it
         // bends evenly.
         raised = wf_fma(wf_mul(of.share[m], wf_set(0.5f)), dot(of.normal[m], way), raised);
-        square = wf_fma(of.share[m], wf_mul(distance[m], distance[m]), square);
+        square = wf_fma(of.share[m], wf_mul(own.distance[m], own.distance[m]), square);
     }
     const wf limit = wf_mul(wf_sqrt(square), wf_set(0.5f)), curvature = wf_load(made->curvature);
     const wm bent = wm_or(wf_lt(curvature, zero), wf_lt(zero, curvature));
     raised = wf_keep(bent, wf_min(wf_max(raised, wf_sub(zero, limit)), limit));
-    const wf kept = wf_div(sigma, wf_sqrt(wf_max(share, wf_set(0x1p-100f))));
+    const wf kept = wf_div(own.sigma, wf_sqrt(wf_max(own.share, wf_set(0x1p-100f))));
     const wf grown = wf_mul(wf_max(kept, wf_mul(spread, wf_set((float)(1 / EWA_LEVEL_SPREAD)))), wf_set(growth));
-    const wf made_sigma = wf_max(sigma, wf_min(grown, reach));
+    const wf made_sigma = wf_max(own.sigma, wf_min(grown, reach));
     const wm on_surface = wf_le(height, made_sigma);
     wf moved[3];
-    for (int c = 0; c < 3; c++) moved[c] = wf_fma(normal[c], raised, wf_sub(middle[c], place[c]));
-    const wf above = wf_keep(of.any_clipped, dot(moved, own));
-    wi_store(made->pick, wi_of_bits(picked));
+    for (int c = 0; c < 3; c++) moved[c] = wf_fma(normal[c], raised, wf_sub(middle[c], own.place[c]));
+    const wf above = wf_keep(of.any_clipped, dot(moved, own.normal));
+    wi_store(made->pick, wi_of_bits(own.picked));
     // What did not grow keeps its sigma to the last bit.
-    wf_store(made->sigma, wf_mul(wf_gather(window->sigma, wi_of_bits(picked)), wf_div(made_sigma, sigma)));
+    wf_store(made->sigma, wf_mul(wf_gather(window->sigma, wi_of_bits(own.picked)), wf_div(made_sigma, own.sigma)));
     for (int c = 0; c < 3; c++) {
-        const wf way = wf_mul(wf_keep(on_surface, wf_fnma(own[c], above, moved[c])), unit);
+        const wf way = wf_mul(wf_keep(on_surface, wf_fnma(own.normal[c], above, moved[c])), unit);
         wf_store(made->moved[c], way);
-        wf_store(made->place[c], wf_add(wf_gather(window->place[c], wi_of_bits(picked)), way));
+        wf_store(made->place[c], wf_add(wf_gather(window->place[c], wi_of_bits(own.picked)), way));
         wf_store(made->normal[c], normal[c]);
     }
 }

@@ -8,7 +8,7 @@
 #ifndef EWA_SRC_SURFACE_PIPELINE_PROJECT_H
 #define EWA_SRC_SURFACE_PIPELINE_PROJECT_H
 
-#include "surface/pipeline_packet.h"
+#include "surface/pipeline_place.h"
 #include "wide/wide_ellipse.h"
 
 #include <string.h>
@@ -27,34 +27,11 @@ static inline wi box_classes(wi columns, wi rows, wm steep, wm wide) {
 }
 
 /// Class of a splat whose box is of few pixels.
-static inline wi small_classes(wm small, wf first_x, wf first_y, wf last_x, wf last_y) {
-    const wf columns = wf_sub(last_x, first_x), rows = wf_sub(last_y, first_y); // but for one
+static inline wi small_classes(wm small, const splat_box *box) {
+    const wf columns = wf_sub(box->last_x, box->first_x), rows = wf_sub(box->last_y, box->first_y); // but for one
     const wf place = wf_fma(columns, wf_set(EWA_SMALL_PX), rows);
     return wi_add(wi_from_f(wf_keep(small, place)), wi_set(EWA_SMALL_CLASS));
 }
-
-/// Sixteen surfels between the steps of the setup. The steps are short loops over a few packets, so that the
-/// processor overlaps one packet's long chains of divisions and roots with the next one's.
-///
-/// Perspective: sizes on the screen are over the depth of the surfel, slopes, so that no power of a depth is
-/// needed; orthographic ones are in camera space. Both are times the view's zoom, which makes them near
-/// pixels: squares neither overflow nor vanish.
-typedef struct stage {
-    wm alive;
-    wf z, n[3], axis[3], ratio;   ///< the last two of ellipses
-    float base_x, base_y;         ///< of the packet's centre, from the middle of the field
-    wf dx, dy;                    ///< from there to the projected centre, slopes (orthographic: camera space)
-    wf sigma, range;              ///< camera space: major axis, depth half range R
-    wf major, minor;              ///< axes on the screen, zoomed
-    wf part;                      ///< R / pz
-    wf inverse_z, x0, y0, facing; ///< 1/pz, slopes of the centre, n.p / pz (orthographic: 1, 0, 0, nz)
-    wf s11, s12, s22, s13, s23;   ///< sheared covariance, on the screen, zoomed
-    wf root_k;                    ///< 1 / sqrt(1 - (R / pz)^2)
-    wf c1, c2;                    ///< ellipse's centre minus the projected centre, zoomed
-    wf xx, xy, yy, peak;
-    wf half_x, half_y;
-    wf key_x, key_y;
-} stage;
 
 /// Projects centres relative to their packet's (ewa_packet_places).
 static ALWAYS_INLINE void place_surfels(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
@@ -335,187 +312,49 @@ static void list_clipped(ewa_run *run, uint32_t clipped_bits, uint32_t alive_bit
     }
 }
 
-/// A centre, rounded to a step of 2^-16 pixels or, outside of the field, a coarser one: its distances from
-/// pixels of the field have no more digits than a float.
-static ALWAYS_INLINE wf whole_place(wf center_px) {
-    const wf power = wf_of_bits(wi_and(wi_of_bits(center_px), wi_set(0x7f800000)));
-    const wf bias = wf_mul(wf_max(power, wf_set(EWA_FIELD_PX / 4)), wf_set(6));
-    return wf_sub(wf_add(center_px, bias), bias);
-}
-
-/// A tangent replaces the key of z + eps where the key changes by less than this part of it: it is then too
-/// near by at most eps / TANGENT_PARTS^2.
-enum { TANGENT_PARTS = 16 };
-
-/// How far splats move away from their contours (semantics.h, section 5): pixels, and what of the key that is.
-typedef struct contour_way {
-    wf x, y, key;
-    wm concave; ///< seen from the side to which the surface turns
-} contour_way;
-
-/// Returns whether some move. `slope` is the length of the key's gradient.
-static ALWAYS_INLINE bool find_contour_way(const ewa_view *view, const uint16_t *curvatures, const stage *t, wf slope,
-                                           wm clipped, contour_way *way) {
-    const wf one = wf_set(1), zero = wf_set(0);
-    const wf curvature = wf_of_bits(wi_shl(wi_load_u16(curvatures), 16));
-    wf bend = wf_mul(wf_max(curvature, zero), wf_set(view->curvature_scale));
-    if (!view->orthographic) bend = wf_mul(bend, t->z);
-    bend = wf_min(bend, wf_set(1e30f));
-    const wf sine2 = wf_mul(t->facing, t->facing);
-    const wf size = wf_mul(t->major, wf_set((float)EWA_CONTOUR_WIDTH * view->fx_zoomed));
-    const wf across = wf_sqrt(wf_fma(wf_mul(size, size), sine2, wf_set(view->prefilter2_px2)));
-    const wf reach =
-        wf_min(wf_mul(wf_mul(across, bend), wf_set((float)EWA_CONTOUR_REACH)), wf_set(view->contour_sine2));
-    const wm near = wm_and(wm_and(t->alive, wm_not(clipped)), wm_and(wf_lt(sine2, reach), wf_lt(zero, slope)));
-    if (!wm_bits(near)) return false;
-    const wf share = wf_sub(one, wf_div(sine2, wf_select(near, reach, one)));
-    const wf length = wf_mul(wf_mul(across, wf_set(view->contour_shift)), share);
-    // Up the gradient where the side that is seen turns away, as on the near half of a sphere.
-    const wm turns_away = wf_lt(t->facing, zero);
-    const wf along = wf_div(wf_select(turns_away, length, wf_negate(length)), wf_select(near, slope, one));
-    way->concave = wm_and(wm_and(near, wm_not(turns_away)), wf_lt(wf_set((float)EWA_CONTOUR_CONCAVE), share));
-    way->x = wf_keep(near, wf_mul(t->key_x, along)), way->y = wf_keep(near, wf_mul(t->key_y, along));
-    way->key = wf_keep(near, wf_mul(wf_mul(slope, slope), along));
-    return true;
-}
-
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
 static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
                                      const ewa_tile *tile, stage *t, ewa_run *run, wf *minimum) {
-    const wf one = wf_set(1), zero = wf_set(0), half = wf_set(0.5f);
-    const wf fx = wf_set(view->fx_px), fy = wf_set(view->fy_px), z = t->z;
-    const ewa_packet *packet = &source->packets[id];
     const size_t first_lane = (size_t)id * EWA_PACKET_LANES;
-    const uint16_t *opacities_u16 = source->opacities ? source->opacities + first_lane : NULL;
-    uint8_t same[EWA_PACKET_LANES];
-    const uint8_t *materials = source->materials ? source->materials + first_lane : same;
-    if (run->materials && !source->materials) memset(same, source->material, sizeof same);
     const uint32_t own = source->clip_masks ? source->clip_masks[id] : 0;
     const wm clipped = wm_of_bits(own | (source->places.cuts ? source->places.cuts[id] : 0));
-    const wf c1_px = wf_mul(t->c1, wf_set(view->fx_zoomed)), c2_px = wf_mul(t->c2, wf_set(view->fy_zoomed));
-    const wf slope = wf_sqrt(wf_fma(t->key_x, t->key_x, wf_mul(t->key_y, t->key_y)));
-    // The depth that the prefilter reaches across, the maximum that goes into the tolerance, and how far the
-    // plane may be used beyond the disc's range; the latter in units of the key.
-    const wf support = wf_mul(wf_set(view->cutoff), t->sigma), reach = wf_mul(wf_set(view->reach_px), slope);
-    wf key, key_low, key_high, reach_depth = reach;
-    wf limit =
-        wf_min(wf_mul(wf_set((float)EWA_FREE_RADII), support), wf_mul(wf_set((float)EWA_FREE_DEPTH), z));
-    if (view->orthographic) {
-        key = wf_negate(z);
-        key_low = wf_negate(wf_add(z, t->range)), key_high = wf_sub(t->range, z);
-    } else {
-        const wf k = wf_mul(wf_mul(t->root_k, t->root_k), t->inverse_z);
-        key = wf_fma(t->key_x, c1_px, wf_fma(t->key_y, c2_px, t->inverse_z));
-        key_low = wf_mul(wf_sub(one, t->part), k), key_high = wf_mul(wf_add(one, t->part), k);
-        reach_depth = wf_mul(wf_mul(reach, z), z);
-        limit = wf_mul(wf_mul(limit, t->inverse_z), t->inverse_z);
-    }
-    wf place_x = wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px);
-    wf place_y = wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px), beyond = reach;
-    contour_way way;
-    wm concave = wm_of_bits(0);
-    // What moves keeps its plane of keys, whose range beside the disc is that of what the splat may reach.
-    if (source->curvatures && find_contour_way(view, source->curvatures + first_lane, t, slope, clipped, &way)) {
-        key = wf_add(key, way.key), beyond = wf_add(beyond, wf_abs(way.key));
-        place_x = wf_add(place_x, way.x), place_y = wf_add(place_y, way.y);
-        if (!view->transparent) concave = way.concave;
-    }
-    wf margin = wf_max(wf_sub(limit, reach), zero);
-    if (view->circular) {
-        const wf maximum = wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support);
-        const wf max_key = view->orthographic ? maximum : wf_mul(wf_mul(maximum, t->inverse_z), t->inverse_z);
-        margin = wf_add(margin, wf_min(wf_mul(t->half_x, slope), max_key));
-    }
-    const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
-                              wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
-    const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
-    const wf cx = whole_place(place_x), cy = whole_place(place_y);
-    const float left = tile->field_x_px, top = tile->field_y_px;
-    const wf whole_first_x = wf_add(wf_floor(wf_sub(wf_sub(cx, t->half_x), half)), one);
-    const wf whole_last_x = wf_floor(wf_sub(wf_add(cx, t->half_x), half));
-    const wf first_x = wf_sub(wf_max(whole_first_x, wf_set(left)), wf_set(left));
-    const wf whole_first_y = wf_add(wf_floor(wf_sub(wf_sub(cy, t->half_y), half)), one);
-    const wf whole_last_y = wf_floor(wf_sub(wf_add(cy, t->half_y), half));
-    const wf first_y = wf_sub(wf_max(whole_first_y, wf_set(top)), wf_set(top));
-    const wf last_x = wf_min(wf_sub(whole_last_x, wf_set(left)), wf_set((float)(tile->width_px - 1)));
-    const wf last_y = wf_min(wf_sub(whole_last_y, wf_set(top)), wf_set((float)(tile->height_px - 1)));
-    // A box that is no number would be as large as the tile without being wide, and of a class that is none.
-    const wm is_box = wm_and(wf_le(whole_first_x, whole_last_x), wf_le(whole_first_y, whole_last_y));
-    const wm alive = wm_and(wm_and(t->alive, is_box), wm_and(wf_le(first_x, last_x), wf_le(first_y, last_y)));
+    const splat_place at = place_splats(view, source->curvatures ? source->curvatures + first_lane : NULL, t, clipped);
+    splat_box box;
+    if (!find_boxes(tile, t, &at, &box)) return;
+    const splat_bound by = bound_splats(view, t, &at, box.wide);
+    const wm alive = box.alive, steep = by.steep;
     const uint32_t alive_bits = wm_bits(alive);
-    if (!alive_bits) return;
-    const wi pixel_x = wi_from_f(wf_keep(alive, first_x)), column = wi_sar(pixel_x, 2);
-    const wi pixel_y = wi_from_f(wf_keep(alive, first_y)), row = wi_sar(pixel_y, 2);
-    const wi columns = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_x)), 2), column), wi_set(1));
-    const wi rows = wi_add(wi_sub(wi_sar(wi_from_f(wf_keep(alive, last_y)), 2), row), wi_set(1));
-    // Wide splats are wide also where only a narrow part of them is in the tile: its pixels are far from the
-    // centre, and how the picture is cut into tiles has no say.
-    enum { WIDE_PX = EWA_COLUMN_CLASSES * EWA_BLOCK_PX };
-    wm wide = wf_lt(wf_set(WIDE_PX / 2), wf_max(t->half_x, t->half_y));
-    if (wm_bits(wf_lt(wf_set((WIDE_PX - EWA_BLOCK_PX) / 2), t->half_x))) { // some have a column too many
-        const wf per_block = wf_set(1.0f / EWA_BLOCK_PX);
-        const wf whole_columns =
-            wf_sub(wf_floor(wf_mul(whole_last_x, per_block)), wf_floor(wf_mul(whole_first_x, per_block)));
-        wide = wm_or(wide, wf_le(wf_set(EWA_COLUMN_CLASSES), whole_columns));
-    }
-    // The key of z + eps has a tangent that serves where the key hardly changes.
-    const wf min_key = wf_fnma(wf_abs(t->key_x), t->half_x, wf_fnma(wf_abs(t->key_y), t->half_y, key));
-    wf lowest = wf_sub(key_low, margin);
-    if (view->circular && !view->orthographic)
-        lowest = wf_max(lowest, wf_mul(wf_set((float)EWA_MIN_KEY), t->inverse_z));
-    if (!view->orthographic) {
-        const wf tangent_key = wf_mul(wf_set(1 - 1 / (float)TANGENT_PARTS), key);
-        wide = wm_or(wide, wf_lt(wf_max(min_key, lowest), tangent_key));
-    }
-    if (view->circular) wide = wm_of_bits(0xffff);
-    // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
-    const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, beyond));
-    const wi steep_bit = wi_of_bits(wf_keep(steep, wf_of_bits(wi_set(EWA_STEEP_BIT))));
-    const wi in_block = wi_or(wi_shl(wi_and(pixel_x, wi_set(EWA_BLOCK_PX - 1)), EWA_SMALL_X_SHIFT),
-                              wi_shl(wi_and(pixel_y, wi_set(EWA_BLOCK_PX - 1)), EWA_SMALL_Y_SHIFT));
-    const wi box = wi_or(wi_or(wi_or(column, steep_bit), wi_shl(row, 8)),
-                         wi_or(wi_or(wi_shl(columns, 16), wi_shl(rows, 24)), in_block));
+    *minimum = wf_min(wf_select(alive, by.low, wf_set(__builtin_inff())), *minimum);
 
-    // The key of z + eps; perspective: the tangent at the centre of 1 / (1 / key + eps).
-    wf bound_scale = one, bound_offset = wf_negate(tolerance);
-    if (!view->orthographic) {
-        const wf share = wf_div(z, wf_add(z, tolerance)), share2 = wf_mul(share, share);
-        bound_scale = wf_select(wide, zero, share2);
-        bound_offset = wf_select(wide, tolerance, wf_mul(wf_sub(share, share2), t->inverse_z));
-    }
-    const wf low = wf_select(steep, lowest, min_key);
-    *minimum = wf_min(wf_select(alive, low, wf_set(__builtin_inff())), *minimum);
-
+    const ewa_packet *packet = &source->packets[id];
     const color_form form = read_color_form(source->colors[id]);
-    const wm is_back = wf_lt(zero, t->facing); // normals are turned towards the viewer
-    const wf max_px = wf_set(EWA_SMALL_PX - 1);
-    wm small = wm_and(wf_le(wf_sub(last_x, first_x), max_px), wf_le(wf_sub(last_y, first_y), max_px));
-    small = wm_and(wm_and(alive, small), wm_not(wm_or(is_back, clipped)));
+    const wm is_back = wf_lt(wf_set(0), t->facing); // normals are turned towards the viewer
+    wm small = wm_and(box_is_small(&box), wm_not(wm_or(is_back, clipped)));
     run->small_count += (uint32_t)__builtin_popcount(wm_bits(small));
     if (!tile->pixels) small = wm_of_bits(0);
     wf opacity = t->peak; // times the peak
-    if (opacities_u16)
-        opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(opacities_u16)), wf_set(1.0f / 65535.0f)));
+    if (source->opacities)
+        opacity = wf_mul(t->peak, wf_mul(wf_from_i(wi_load_u16(source->opacities + first_lane)), wf_set(1.0f / 65535.0f)));
     const wf color_units = wf_mul(opacity, wf_set(view->color_scale));
     wf lanes[16] = {
-        wf_sub(wf_fma(wf_from_i(column), wf_set(EWA_BLOCK_PX), wf_set(left)), cx),
-        wf_sub(wf_fma(wf_from_i(row), wf_set(EWA_BLOCK_PX), wf_set(top)), cy),
+        wf_sub(wf_fma(wf_from_i(box.column), wf_set(EWA_BLOCK_PX), wf_set(tile->field_x_px)), at.x_px),
+        wf_sub(wf_fma(wf_from_i(box.row), wf_set(EWA_BLOCK_PX), wf_set(tile->field_y_px)), at.y_px),
         t->xx,
         t->xy,
         t->yy,
-        key,
+        at.key,
         t->key_x,
         t->key_y,
-        wf_select(steep, bound_scale, wf_fma(bound_scale, key, bound_offset)),
-        wf_select(steep, bound_offset, wf_mul(bound_scale, t->key_x)),
-        wf_select(steep, wf_add(key_high, margin), wf_mul(bound_scale, t->key_y)),
-        low,
+        wf_select(steep, by.scale, wf_fma(by.scale, at.key, by.offset)),
+        wf_select(steep, by.offset, wf_mul(by.scale, t->key_x)),
+        wf_select(steep, wf_add(at.key_high, at.margin), wf_mul(by.scale, t->key_y)),
+        by.low,
         wf_odd_product(color_units, decode_color(&form, packet->red)),
         wf_odd_product(color_units, decode_color(&form, packet->green)),
         wf_odd_product(color_units, decode_color(&form, packet->blue)),
-        wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
-                                    wi_or(select_int(concave, EWA_CONCAVE_BIT, wi_set(0)),
-                                          select_int(is_back, EWA_BACK_FACING_BIT, wi_set(0)))))),
+        wf_of_bits(wi_or(wi_or(pack_boxes(&box, steep), select_int(clipped, EWA_CLIP_BIT, wi_set(0))),
+                         wi_or(select_int(at.concave, EWA_CONCAVE_BIT, wi_set(0)),
+                               select_int(is_back, EWA_BACK_FACING_BIT, wi_set(0))))),
     };
     const wi boxes = wi_of_bits(lanes[15]);
     w_transpose(lanes);
@@ -524,15 +363,15 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     float loads[64];
     w_store4(loads, wf_odd_product(facing_peak, t->n[0]), wf_odd_product(facing_peak, t->n[1]),
              wf_odd_product(facing_peak, t->n[2]), wf_odd(peak_units));
-    wi class_of = select_int(clipped, EWA_CLIP_CLASS, box_classes(columns, rows, steep, wide));
-    class_of = wi_of_bits(wf_select(small, wf_of_bits(small_classes(small, first_x, first_y, last_x, last_y)),
-                                    wf_of_bits(class_of)));
-    uint8_t classes[16];
-    wi_store_u8(classes, class_of);
+    const wi class_of = select_int(clipped, EWA_CLIP_CLASS, box_classes(box.columns, box.rows, steep, by.wide));
+    uint8_t classes[16], same[EWA_PACKET_LANES];
+    wi_store_u8(classes, wi_of_bits(wf_select(small, wf_of_bits(small_classes(small, &box)), wf_of_bits(class_of))));
     if (wm_bits(wm_and(alive, clipped))) list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
     if (run->opacities) wf_store(opacities, wf_odd_product(opacity, wf_set(view->sum_scale)));
-    emit(run, alive_bits, id, lanes, loads, opacities, materials, classes, boxes, low);
+    const uint8_t *materials = source->materials ? source->materials + first_lane : same;
+    if (run->materials && !source->materials) memset(same, source->material, sizeof same);
+    emit(run, alive_bits, id, lanes, loads, opacities, materials, classes, boxes, by.low);
 }
 
 static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,

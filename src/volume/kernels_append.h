@@ -183,6 +183,39 @@ static ALWAYS_INLINE void queue_lanes(ewa_volume_queue *queue, const wf *values,
     }
 }
 
+/// Voxels of which some are drawn.
+typedef struct found_voxels {
+    wf x_px, y_px; ///< in the tile
+    wf factor, last;
+    wi slice, window;
+    uint32_t bits, splats; ///< lanes that are drawn; those that are splats
+} found_voxels;
+
+/// Puts those that are drawn of 16 voxels into the queue.
+static void queue_found(const ewa_volume_view *view, const ewa_volume_source *source, uint32_t first, const voxel_lanes *v,
+                        const found_voxels *found, bool has_splats, ewa_volume_queue *queue) {
+    wf values[QUEUE_FIELDS] = {[QUEUE_SLICE] = wf_of_bits(found->slice),
+                               [QUEUE_WINDOW] = wf_of_bits(found->window),
+                               [QUEUE_NORMAL] = wf_of_bits(wi_load(source->normals + first)),
+                               [QUEUE_FACTOR] = found->factor,
+                               [QUEUE_LAST] = found->last,
+                               [QUEUE_SLOPE] = v->x,
+                               [QUEUE_SLOPE + 1] = v->y,
+                               [QUEUE_LENGTH] = v->length};
+    load_colors(view, source, first, values + QUEUE_COLOR);
+    if (has_splats) {
+        if (view->mark_splats) mark_colors(view, wm_of_bits(found->splats), values + QUEUE_COLOR);
+        values[QUEUE_PLACE] = found->x_px, values[QUEUE_PLACE + 1] = found->y_px, values[QUEUE_PLACE + 2] = v->z;
+        values[QUEUE_PLACE + 3] =
+            view->orthographic ? wf_fma(wf_fma(v->x, v->x, wf_mul(v->y, v->y)), wf_set(view->bend), v->z)
+                               : wf_mul(v->z, v->length);
+        queue_lanes(queue, values, found->bits, QUEUE_FIELDS);
+    } else {
+        queue_lanes(queue, values, found->bits, QUEUE_PLACE);
+    }
+    queue->count += (uint32_t)__builtin_popcount(found->bits);
+}
+
 static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_source *block,
                        ewa_volume_tile *tile) {
     // Records that are written cannot change these.
@@ -229,26 +262,8 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
             bits = open;
         }
         if (!bits) continue;
-        wf values[QUEUE_FIELDS] = {[QUEUE_SLICE] = wf_of_bits(slice),
-                                   [QUEUE_WINDOW] = wf_of_bits(window),
-                                   [QUEUE_NORMAL] = wf_of_bits(wi_load(source->normals + first)),
-                                   [QUEUE_FACTOR] = factor,
-                                   [QUEUE_LAST] = last,
-                                   [QUEUE_SLOPE] = v.x,
-                                   [QUEUE_SLOPE + 1] = v.y,
-                                   [QUEUE_LENGTH] = v.length};
-        load_colors(view, source, first, values + QUEUE_COLOR);
-        if (has_splats) {
-            if (view->mark_splats) mark_colors(view, wm_of_bits(splats), values + QUEUE_COLOR);
-            values[QUEUE_PLACE] = x, values[QUEUE_PLACE + 1] = y, values[QUEUE_PLACE + 2] = v.z;
-            values[QUEUE_PLACE + 3] =
-                view->orthographic ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)
-                                   : wf_mul(v.z, v.length);
-            queue_lanes(queue, values, bits, QUEUE_FIELDS);
-        } else {
-            queue_lanes(queue, values, bits, QUEUE_PLACE);
-        }
-        queue->count += (uint32_t)__builtin_popcount(bits);
+        const found_voxels found = {x, y, factor, last, slice, window, bits, splats};
+        queue_found(view, source, first, &v, &found, has_splats, queue);
         if (queue->count >= EWA_QUEUE_VOXELS) empty_full_queue(view, tile);
     }
     return hidden;
