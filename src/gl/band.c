@@ -338,6 +338,15 @@ static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tal
     return raise(gl, &gl->marks.units, tally->unit_count, EWA_GL_UNITS, "work", EWA_GL_UNIT_BYTES);
 }
 
+/// Refuses a band of which the driver has left something out.
+static ewa_status check_loops(const ewa_gl_compute *gl, const ewa_gl_tally *tally) {
+    if (!tally->stopped_count) return EWA_OK;
+    return ewa_fail(gl->context, EWA_ERROR_LIMIT,
+                    "OpenGL: %s ends its programs before they are through: there are too many splats behind the edges of %u "
+                    "pixels; the CPU draws them, or one edge layer",
+                    gl->device->facts.renderer, tally->stopped_count);
+}
+
 /// Fetches the counts and, unless it has to be drawn again, the pixels.
 static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outcome, bool *again) {
     EWA_TRY(wait_for(gl, "the picture"));
@@ -349,6 +358,7 @@ static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outco
     ewa_gl_tally tally;
     memcpy(&tally, from, sizeof tally);
     ewa_status status = check_band(gl, b, &tally, again);
+    if (status == EWA_OK && !*again) status = check_loops(gl, &tally);
     if (status == EWA_OK && !*again) {
         ewa_gl_result_copy(&b->result, from + READBACK_HEAD);
         outcome->broken += tally.broken_count, outcome->drawn += tally.list_count;

@@ -62,7 +62,9 @@ typedef struct ewa_gl_band_block {
 /// What programs count, before the arguments of indirect dispatches.
 typedef struct ewa_gl_tally {
     uint32_t pair_count, kept_count, near_count, clip_count, list_count, carry, unit_count, broken_count;
-    uint32_t culled_groups, divided_groups, pad[2];
+    uint32_t culled_groups, divided_groups;
+    uint32_t stopped_count; ///< pixels whose program the driver ended early
+    uint32_t pad;
 } ewa_gl_tally;
 
 /// Packets of one source that lie side by side in a page, and whose surfels have `parts` (bits of ewa_gl_part). Culling has a

@@ -24,7 +24,7 @@ layout(std140, binding = 0) uniform BandBlock {
 // many pairs there are up to there.
 layout(std430, binding = 13) buffer CountBlock {
     uint pair_count, kept_count, near_count, clip_count, list_count, carry, unit_count, broken_count;
-    uint culled_groups, divided_groups, pad0, pad1;
+    uint culled_groups, divided_groups, stopped_count, pad;
     uvec4 arguments[];
 };
 

@@ -50,6 +50,14 @@ float gather(Tile tile, uvec2 in_field, bool open, float beyond, bool merged) {
     return largest;
 }
 
+// Some drivers end loops that go on for long (llvmpipe's end after 65,535 turns of all of them together), and say nothing. Then
+// this one ends early, too.
+bool loops_go_on() {
+    uint turns = 0u;
+    for (uint i = 0u; i < layers; i++) turns++;
+    return turns == layers;
+}
+
 void main() {
     uint number = work_number();
     if (number >= tile_count || tiles[number].open == 0u) return;
@@ -95,4 +103,5 @@ void main() {
     }
     if (inside)
         for (uint c = 0u; c < 4u; c++) BEHIND(c) = behind[c];
+    if (!loops_go_on()) atomicAdd(stopped_count, 1u);
 }
