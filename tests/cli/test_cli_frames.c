@@ -198,6 +198,8 @@ TEST(test_film_fails) {
               "PATH=/nonexistent; ewa render torus.ply -o films/a.mp4 --turntable 5");
     run_fails(1, "a.mp4|status 3|Unknown encoder",
               "PATH=$PWD/broken:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
+    // Said once: no frame after the one that could not go is tried.
+    assert_null(strstr(strstr(last_run.err, "a.mp4") + 1, "a.mp4"));
     run_fails(1, "a.mp4|signal 9",
               "PATH=$PWD/dying:$PATH && ewa render torus.ply -o films/a.mp4 --turntable 40 --size 320x240");
     run_fails(2, "nowhere", "PATH=$PWD/fake:$PATH && ewa render torus.ply -o nowhere/a.mp4 --turntable 4");

@@ -247,10 +247,10 @@ TEST(test_sources_and_bands) {
     for (int i = 0; i < 2; i++) ewa_surfels_destroy(&surfels[i]);
 }
 
-/// Three materials, highlights and what mirrors.
+/// Three materials, highlights and what mirrors: a sky of texels finer than pixels, which coarser levels are taken of.
 TEST(test_materials) {
     if (!shared.raster) skip();
-    enum { SKY_HEIGHT = 32, SKY_WIDTH = 2 * SKY_HEIGHT, MATERIALS = 3 };
+    enum { SKY_HEIGHT = 256, SKY_WIDTH = 2 * SKY_HEIGHT, MATERIALS = 3 };
     static float sky[3 * SKY_WIDTH * SKY_HEIGHT];
     for (uint32_t i = 0; i < SKY_WIDTH * SKY_HEIGHT; i++) {
         sky[3 * i] = (float)(i % SKY_WIDTH) / SKY_WIDTH;
