@@ -82,7 +82,14 @@ TEST(test_info) {
     assert_non_null(strstr(last_run.out, "octree      COPC 1.0"));
     assert_non_null(strstr(last_run.out, "stand for the points at its levels"));
     assert_non_null(strstr(last_run.out, "problems    none"));
+    // The cube's corner in words is that in JSON, to ten digits.
+    double words[3], numbers[3];
+    const char *cube = strstr(last_run.out, "    cube ");
+    assert_true(cube && sscanf(cube, " cube %*f from %lf %lf %lf", &words[0], &words[1], &words[2]) == 3);
     run_done("ewa info --json t.copc.laz");
+    const char *corner = strstr(last_run.out, "\"cube_low\": [");
+    assert_true(corner && sscanf(corner, "\"cube_low\": [%lf, %lf, %lf]", &numbers[0], &numbers[1], &numbers[2]) == 3);
+    for (int c = 0; c < 3; c++) assert_float_equal(words[c], numbers[c], 1e-9);
     assert_non_null(strstr(last_run.out, "\"octree\": {"));
     assert_non_null(strstr(last_run.out, "\"merged\": true"));
     assert_non_null(strstr(last_run.out, "\"sampled_points\": 0"));
