@@ -107,6 +107,23 @@ TEST(test_keys) {
     }
 }
 
+/// Half a turn about each axis, of which the quaternion has one number that is not zero: keys are met.
+TEST(test_half_turns) {
+    for (int axis = 0; axis < 3; axis++) {
+        ewa_camera keys[2];
+        for (int k = 0; k < 2; k++) ewa_camera_init(&keys[k]);
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++) keys[1].world_to_camera[4 * r + c] = r != c ? 0 : r == axis ? 1 : -1;
+        ewa_camera_path *path = make(keys, 2, false);
+        ewa_camera camera;
+        assert_int_equal(ewa_camera_path_at(path, 1, &camera), EWA_OK);
+        assert_near(turn_deg(&camera, &keys[1]), 0, 1e-6);
+        assert_int_equal(ewa_camera_path_at(path, 0.5, &camera), EWA_OK);
+        assert_near(turn_deg(&camera, &keys[0]), 90, 1e-6);
+        ewa_camera_path_destroy(&path);
+    }
+}
+
 /// On a circle, the rotation turns at one speed to rounding; the eye stays within 3 % (4 keys), 0.2 % (8
 /// keys) of the radius, and its angular speed within 7 % and 0.5 % of its mean.
 TEST(test_circle) {
