@@ -5,7 +5,9 @@
 // degenerate input.
 #include <fenv.h>
 
+#include "math/box.h"
 #include "math/check_math.h"
+#include "math/degree.h"
 
 enum { ROUNDS = 2000 };
 
@@ -256,6 +258,38 @@ TEST(test_no_division_by_zero) {
     assert_int_equal(ewa_line3_meet_plane(line3, vec4_make(0, 0, 1, 5), &plane), EWA_OK);
     assert_true(plane.w == 0);
     assert_int_equal(fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
+}
+
+/// A box turned and mirrored by a map is around the map's eight corners, and touches some on each side.
+TEST(test_moved_boxes) {
+    check_random random = {5};
+    for (int i = 0; i < ROUNDS; i++) {
+        double map[16] = {[15] = 1}, low[3], high[3], corner_low[3], corner_high[3];
+        for (int k = 0; k < 12; k++) map[k] = check_uniform(&random, -2, 2);
+        for (int c = 0; c < 3; c++) low[c] = check_uniform(&random, -3, 0), high[c] = low[c] + check_uniform(&random, 0, 2);
+        for (int corner = 0; corner < 8; corner++)
+            for (int r = 0; r < 3; r++) {
+                double at = map[4 * r + 3];
+                for (int c = 0; c < 3; c++) at += map[4 * r + c] * (corner >> c & 1 ? high[c] : low[c]);
+                corner_low[r] = corner ? fmin(corner_low[r], at) : at;
+                corner_high[r] = corner ? fmax(corner_high[r], at) : at;
+            }
+        ewa_box_transform(map, low, high);
+        for (int r = 0; r < 3; r++) {
+            check_near(low[r], corner_low[r], SMALL);
+            check_near(high[r], corner_high[r], SMALL);
+        }
+    }
+}
+
+/// Lengths of a degree on the ellipsoid of WGS 84, as tables have them to a tenth of a metre.
+TEST(test_degrees) {
+    static const double lengths_m[][3] = {{0, 111319.5, 110574.3}, {-45, 78846.8, 111131.8}, {60, 55800.0, 111412.2}};
+    for (int i = 0; i < 3; i++) {
+        double length_m[2];
+        ewa_degree_lengths(lengths_m[i][0], length_m);
+        for (int k = 0; k < 2; k++) assert_float_equal(length_m[k], lengths_m[i][1 + k], 0.1);
+    }
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
