@@ -275,6 +275,12 @@ TEST(test_orbit) {
         assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
     }
     for (int k = 0; k < 16; k++) assert_near(camera.world_to_camera[k], before.world_to_camera[k], 1e-13);
+    // By half a degree there and back.
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        assert_int_equal(ewa_camera_orbit(&camera, pivot, axis, 0.5 * sign), EWA_OK);
+        ewa_camera_eye(&camera, eye);
+        assert_near(eye[1], sign > 0 ? 1 + 6 * sin(EWA_PI / 360) : 1, 1e-13);
+    }
     assert_int_equal(ewa_camera_orbit(&camera, pivot, none, 1), EWA_ERROR_NUMERIC);
     assert_int_equal(ewa_camera_orbit(&camera, pivot, axis, NAN), EWA_ERROR_NUMERIC);
 }
