@@ -5,7 +5,7 @@
 // host waits once, at the end. What it has to make (host_records.h) takes one wait more, and what found no room is
 // drawn again with more of it.
 #include "gl/eye_dome.h"
-#include "gl/parts.h"
+#include "gl/averages.h"
 
 #include <string.h>
 
@@ -193,14 +193,14 @@ static void dispatch_counted(ewa_gl_compute *gl, uint32_t argument, ewa_gl_time 
     end_dispatch(gl, stage);
 }
 
-/// What programs see of a page; of a part that none of its packets has, another stands there, which they do not read.
+/// What programs see of a page; of a stream that none of its packets has, another stands there, which they do not read.
 static void bind_page(const ewa_gl_page *page) {
-    static const GLuint bindings[EWA_GL_PARTS] = {[EWA_GL_PACKETS] = 1,     [EWA_GL_BOUNDS] = 2,
-                                                  [EWA_GL_OPACITIES] = 4,   [EWA_GL_CURVATURES] = 10,
-                                                  [EWA_GL_MATERIALS] = 14,  [EWA_GL_CLIP_MASKS] = 15};
-    for (int part = 0; part < EWA_GL_PARTS; part++) {
-        const GLuint name = page->parts[part].name;
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings[part], name ? name : page->parts[EWA_GL_BOUNDS].name);
+    static const GLuint bindings[EWA_GL_STREAMS] = {[EWA_GL_PACKETS] = 1,     [EWA_GL_BOUNDS] = 2,
+                                                    [EWA_GL_OPACITIES] = 4,   [EWA_GL_CURVATURES] = 10,
+                                                    [EWA_GL_MATERIALS] = 14,  [EWA_GL_CLIP_MASKS] = 15};
+    for (int stream = 0; stream < EWA_GL_STREAMS; stream++) {
+        const GLuint name = page->streams[stream].name;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings[stream], name ? name : page->streams[EWA_GL_BOUNDS].name);
     }
 }
 
@@ -314,7 +314,7 @@ static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
     }
     if (b->result.finer > 1) {
         uint64_t group_count;
-        EWA_TRY(ewa_gl_parts_use(gl, &b->result, b->job, b->rows, &group_count));
+        EWA_TRY(ewa_gl_averages_use(gl, &b->result, b->job, b->rows, &group_count));
         dispatch(gl, group_count, EWA_GL_TIME_RESOLVE);
     }
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_READBACK].name);
@@ -342,8 +342,8 @@ static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tal
 static ewa_status check_loops(const ewa_gl_compute *gl, const ewa_gl_tally *tally) {
     if (!tally->stopped_count) return EWA_OK;
     return ewa_fail(gl->context, EWA_ERROR_LIMIT,
-                    "OpenGL: %s ends its programs before they are through: there are too many splats behind the edges of %u "
-                    "pixels; the CPU draws them, or one edge layer",
+                    "OpenGL: %s stops programs that take long: too many splats lie behind the edges of %u pixels; draw by the CPU, "
+                    "or with one edge layer",
                     gl->device->facts.renderer, tally->stopped_count);
 }
 

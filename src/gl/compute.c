@@ -140,15 +140,15 @@ static ewa_status put_environment(ewa_gl_compute *gl, const ewa_environment *env
     return EWA_OK;
 }
 
-/// What a source has of its surfels' parts in this frame: bits of ewa_gl_part.
-static uint32_t parts_of(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_gl_resident *resident) {
-    const bool wanted[EWA_GL_PARTS] = {[EWA_GL_OPACITIES] = job->with_opacity,
-                                       [EWA_GL_CURVATURES] = source->packets.curvatures != NULL,
-                                       [EWA_GL_MATERIALS] = job->with_materials,
-                                       [EWA_GL_CLIP_MASKS] = source->packets.clip_masks != NULL};
-    uint32_t parts = 0;
-    for (int part = 0; part < EWA_GL_PARTS; part++) parts |= wanted[part] ? resident->parts & 1u << part : 0;
-    return parts;
+/// Which streams of a source a frame reads: bits of ewa_gl_stream.
+static uint32_t streams_of(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_gl_resident *resident) {
+    const bool wanted[EWA_GL_STREAMS] = {[EWA_GL_OPACITIES] = job->with_opacity,
+                                         [EWA_GL_CURVATURES] = source->packets.curvatures != NULL,
+                                         [EWA_GL_MATERIALS] = job->with_materials,
+                                         [EWA_GL_CLIP_MASKS] = source->packets.clip_masks != NULL};
+    uint32_t streams = 0;
+    for (int stream = 0; stream < EWA_GL_STREAMS; stream++) streams |= wanted[stream] ? resident->streams & 1u << stream : 0;
+    return streams;
 }
 
 /// Lists which packets of which pages the frame draws, page by page.
@@ -175,7 +175,7 @@ static ewa_status put_segments(ewa_gl_compute *gl, const ewa_tile_job *job) {
                                                   .count = pieces[k].count,
                                                   .source = i,
                                                   .first = pieces[k].first,
-                                                  .parts = parts_of(job, &job->sources[i], resident)};
+                                                  .streams = streams_of(job, &job->sources[i], resident)};
                 use.group_count += (pieces[k].count + EWA_GL_GROUP_PACKETS - 1) / EWA_GL_GROUP_PACKETS;
             }
         }

@@ -11,14 +11,14 @@ enum { LANES = EWA_PACKET_LANES, MAX_PAGE_PACKETS = 1 << 22, BOUND_WORDS = 8 };
 static const uint64_t KEPT_BYTES = 512ull << 20;
 
 /// Words of a packet.
-static const uint32_t part_words[EWA_GL_PARTS] = {[EWA_GL_PACKETS] = sizeof(ewa_packet) / 4,
-                                                  [EWA_GL_BOUNDS] = BOUND_WORDS,
-                                                  [EWA_GL_OPACITIES] = LANES / 2,
-                                                  [EWA_GL_CURVATURES] = LANES / 2,
-                                                  [EWA_GL_MATERIALS] = LANES / 4,
-                                                  [EWA_GL_CLIP_MASKS] = 1};
+static const uint32_t stream_words[EWA_GL_STREAMS] = {[EWA_GL_PACKETS] = sizeof(ewa_packet) / 4,
+                                                      [EWA_GL_BOUNDS] = BOUND_WORDS,
+                                                      [EWA_GL_OPACITIES] = LANES / 2,
+                                                      [EWA_GL_CURVATURES] = LANES / 2,
+                                                      [EWA_GL_MATERIALS] = LANES / 4,
+                                                      [EWA_GL_CLIP_MASKS] = 1};
 
-static uint64_t part_bytes(int part, uint32_t packets) { return (uint64_t)packets * part_words[part] * sizeof(uint32_t); }
+static uint64_t stream_bytes(int stream, uint32_t packets) { return (uint64_t)packets * stream_words[stream] * sizeof(uint32_t); }
 
 static uint32_t smaller(uint64_t a, uint32_t b) { return a < b ? (uint32_t)a : b; }
 
@@ -27,9 +27,9 @@ static ewa_gl_page *page_at(ewa_gl_residents *residents, uint32_t index) {
 }
 
 static void free_page(ewa_gl *device, ewa_gl_residents *residents, ewa_gl_page *page) {
-    for (int part = 0; part < EWA_GL_PARTS; part++) {
-        if (device->lost) page->parts[part].name = 0;
-        ewa_gl_buffer_free(&page->parts[part]);
+    for (int stream = 0; stream < EWA_GL_STREAMS; stream++) {
+        if (device->lost) page->streams[stream].name = 0;
+        ewa_gl_buffer_free(&page->streams[stream]);
     }
     residents->capacity -= page->capacity;
     page->capacity = page->hole_count = 0;
@@ -105,9 +105,9 @@ void ewa_gl_residents_start(ewa_gl *device, ewa_gl_residents *residents) {
 /// Makes room for more packets in a page; what is there stays.
 static ewa_status grow_page(ewa_gl *device, ewa_gl_residents *residents, ewa_gl_page *page, uint32_t capacity) {
     const bool first = page->capacity == 0;
-    for (int part = 0; part < EWA_GL_PARTS; part++)
-        if (page->parts[part].name || (first && part <= EWA_GL_BOUNDS))
-            EWA_TRY(ewa_gl_buffer_grow(device, &page->parts[part], "surfels", part_bytes(part, capacity)));
+    for (int stream = 0; stream < EWA_GL_STREAMS; stream++)
+        if (page->streams[stream].name || (first && stream <= EWA_GL_BOUNDS))
+            EWA_TRY(ewa_gl_buffer_grow(device, &page->streams[stream], "surfels", stream_bytes(stream, capacity)));
     EWA_TRY(ewa_buffer_grow(device->context, &page->holes, page->hole_count, (size_t)page->piece_count + 2,
                             sizeof(ewa_gl_range)));
     const uint32_t more = capacity - page->capacity;
@@ -145,12 +145,12 @@ static ewa_status make_room(ewa_gl *device, ewa_gl_residents *residents, uint32_
     return status;
 }
 
-/// Writes a part of packets from `first` on into a page from `at` on; it becomes a buffer where it was none.
-static ewa_status write_part(ewa_gl *device, ewa_gl_page *page, const ewa_gl_piece *piece, ewa_gl_part part,
+/// Writes a stream of packets from `first` on into a page from `at` on; it becomes a buffer where it was none.
+static ewa_status write_stream(ewa_gl *device, ewa_gl_page *page, const ewa_gl_piece *piece, ewa_gl_stream stream,
                              const void *from) {
-    ewa_gl_buffer *buffer = &page->parts[part];
-    EWA_TRY(ewa_gl_buffer_reserve(device, buffer, "surfels", part_bytes(part, page->capacity)));
-    ewa_gl_buffer_write(device, buffer, part_bytes(part, piece->at), from, part_bytes(part, piece->count));
+    ewa_gl_buffer *buffer = &page->streams[stream];
+    EWA_TRY(ewa_gl_buffer_reserve(device, buffer, "surfels", stream_bytes(stream, page->capacity)));
+    ewa_gl_buffer_write(device, buffer, stream_bytes(stream, piece->at), from, stream_bytes(stream, piece->count));
     return EWA_OK;
 }
 
@@ -167,7 +167,7 @@ static ewa_status write_bounds(ewa_gl *device, ewa_gl_residents *residents, cons
         words[6] = bounds->cone[i];
         words[7] = bounds->radius[i] | (uint32_t)bounds->colors[i] << 16;
     }
-    return write_part(device, page, piece, EWA_GL_BOUNDS, residents->staging.data);
+    return write_stream(device, page, piece, EWA_GL_BOUNDS, residents->staging.data);
 }
 
 static ewa_status write_clip_masks(ewa_gl *device, ewa_gl_residents *residents, const ewa_surfels *surfels,
@@ -175,18 +175,18 @@ static ewa_status write_clip_masks(ewa_gl *device, ewa_gl_residents *residents, 
     EWA_TRY(ewa_buffer_reserve(device->context, &residents->staging, piece->count, sizeof(uint32_t)));
     uint32_t *words = residents->staging.data;
     for (uint32_t i = 0; i < piece->count; i++) words[i] = surfels->clip_masks[piece->first + i];
-    return write_part(device, page, piece, EWA_GL_CLIP_MASKS, words);
+    return write_stream(device, page, piece, EWA_GL_CLIP_MASKS, words);
 }
 
 static ewa_status write_piece(ewa_gl *device, ewa_gl_residents *residents, const ewa_surfels *surfels,
                               const ewa_gl_piece *piece) {
     ewa_gl_page *page = page_at(residents, piece->page);
     const size_t lane = (size_t)piece->first * LANES;
-    EWA_TRY(write_part(device, page, piece, EWA_GL_PACKETS, surfels->packets + piece->first));
+    EWA_TRY(write_stream(device, page, piece, EWA_GL_PACKETS, surfels->packets + piece->first));
     EWA_TRY(write_bounds(device, residents, surfels, page, piece));
-    if (surfels->opacities) EWA_TRY(write_part(device, page, piece, EWA_GL_OPACITIES, surfels->opacities + lane));
-    if (surfels->curvatures) EWA_TRY(write_part(device, page, piece, EWA_GL_CURVATURES, surfels->curvatures + lane));
-    if (surfels->materials) EWA_TRY(write_part(device, page, piece, EWA_GL_MATERIALS, surfels->materials + lane));
+    if (surfels->opacities) EWA_TRY(write_stream(device, page, piece, EWA_GL_OPACITIES, surfels->opacities + lane));
+    if (surfels->curvatures) EWA_TRY(write_stream(device, page, piece, EWA_GL_CURVATURES, surfels->curvatures + lane));
+    if (surfels->materials) EWA_TRY(write_stream(device, page, piece, EWA_GL_MATERIALS, surfels->materials + lane));
     if (surfels->clip_masks) EWA_TRY(write_clip_masks(device, residents, surfels, page, piece));
     return ewa_gl_check(device, "surfels");
 }
@@ -229,9 +229,9 @@ static ewa_status put_pieces(ewa_gl *device, ewa_gl_residents *residents, const 
 
 static ewa_status put_surfels(ewa_gl *device, ewa_gl_residents *residents, const ewa_surfels *surfels) {
     ewa_gl_resident made = {.serial = surfels->serial, .used = residents->frame};
-    const bool has[EWA_GL_PARTS] = {[EWA_GL_OPACITIES] = surfels->opacities, [EWA_GL_CURVATURES] = surfels->curvatures,
-                                    [EWA_GL_MATERIALS] = surfels->materials, [EWA_GL_CLIP_MASKS] = surfels->clip_masks};
-    for (int part = 0; part < EWA_GL_PARTS; part++) made.parts |= has[part] ? 1u << part : 0;
+    const bool has[EWA_GL_STREAMS] = {[EWA_GL_OPACITIES] = surfels->opacities, [EWA_GL_CURVATURES] = surfels->curvatures,
+                                      [EWA_GL_MATERIALS] = surfels->materials, [EWA_GL_CLIP_MASKS] = surfels->clip_masks};
+    for (int stream = 0; stream < EWA_GL_STREAMS; stream++) made.streams |= has[stream] ? 1u << stream : 0;
     EWA_TRY(ewa_buffer_grow(device->context, &residents->items, residents->count, (size_t)residents->count + 1,
                             sizeof made));
     const ewa_status status = put_pieces(device, residents, surfels, &made);

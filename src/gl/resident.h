@@ -9,25 +9,25 @@
 #include "gl/memory.h"
 #include "surface/packets.h"
 
-/// What is there of packets, each in a buffer of its own.
-typedef enum ewa_gl_part {
+/// Streams of attributes of packets, each in a buffer of its own.
+typedef enum ewa_gl_stream {
     EWA_GL_PACKETS,
     EWA_GL_BOUNDS, ///< what culling reads (shaders/cull.glsl)
     EWA_GL_OPACITIES,
     EWA_GL_CURVATURES,
     EWA_GL_MATERIALS,
     EWA_GL_CLIP_MASKS,
-    EWA_GL_PARTS
-} ewa_gl_part;
+    EWA_GL_STREAMS
+} ewa_gl_stream;
 
 /// Packets [first, first + count).
 typedef struct ewa_gl_range {
     uint32_t first, count;
 } ewa_gl_range;
 
-/// As many packets as a buffer has room for. Parts that none of them has are no buffers.
+/// As many packets as a buffer has room for. Streams that none of them has are no buffers.
 typedef struct ewa_gl_page {
-    ewa_gl_buffer parts[EWA_GL_PARTS];
+    ewa_gl_buffer streams[EWA_GL_STREAMS];
     uint32_t capacity, piece_count, hole_count;
     ewa_buffer holes; ///< ewa_gl_range: where there is room, in order, apart from each other
 } ewa_gl_page;
@@ -41,7 +41,7 @@ typedef struct ewa_gl_piece {
 typedef struct ewa_gl_resident {
     uint64_t serial;    ///< ewa_surfels.serial
     uint64_t used;      ///< ewa_gl_residents.frame when it was last asked for
-    uint32_t parts;     ///< bit per ewa_gl_part that not all have, and they do
+    uint32_t streams;   ///< bit per ewa_gl_stream that not all have, and they do
     uint32_t piece_count;
     ewa_buffer pieces;  ///< ewa_gl_piece
 } ewa_gl_resident;

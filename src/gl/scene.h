@@ -67,10 +67,10 @@ typedef struct ewa_gl_tally {
     uint32_t pad;
 } ewa_gl_tally;
 
-/// Packets of one source that lie side by side in a page, and whose surfels have `parts` (bits of ewa_gl_part). Culling has a
+/// Packets of one source that lie side by side in a page, and whose surfels have `streams` (bits of ewa_gl_stream). Culling has a
 /// group of invocations for each EWA_GL_GROUP_PACKETS, from `first_group` on.
 typedef struct ewa_gl_segment {
-    uint32_t first_group, at, count, source, first, parts, pad[2];
+    uint32_t first_group, at, count, source, first, streams, pad[2];
 } ewa_gl_segment;
 
 enum { EWA_GL_GROUP_PACKETS = 64 };

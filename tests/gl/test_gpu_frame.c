@@ -14,13 +14,19 @@ static ewa_renderer_info info_of(const ewa_renderer *renderer) {
     return info;
 }
 
+/// Makes a scene, and a renderer of its frames by the device.
+static ewa_renderer *make(gpu_scene *at) {
+    gpu_scene_make(at, POINTS, WIDTH_PX, HEIGHT_PX);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at->context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    return renderer;
+}
+
 /// A default frame waits once, reads once and sends the same whatever the size of the cloud; and all its programs are few.
 TEST(test_counts) {
     enum { DISPATCHES = 12 };
     OWNED(gpu_scene_free) gpu_scene at;
-    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(&at);
     assert_int_equal(info_of(renderer).wait_count, 0);
     assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
     const ewa_renderer_info first = info_of(renderer);
@@ -53,9 +59,7 @@ TEST(test_counts) {
 /// Eye-dome lighting is a program more, and nothing else: its depths and colours stay on the device.
 TEST(test_eye_dome) {
     OWNED(gpu_scene_free) gpu_scene at;
-    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(&at);
     ewa_renderer_info infos[2];
     for (int lit = 0; lit < 2; lit++) {
         at.options.eye_dome = lit;
@@ -74,9 +78,7 @@ TEST(test_eye_dome) {
 TEST(test_parts) {
     enum { HEAD_BYTES = 64 };
     OWNED(gpu_scene_free) gpu_scene at;
-    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(&at);
     const uint32_t divisions[] = {1, 2, 4, 3};
     for (int i = 0; i < 4; i++) {
         at.options.supersampling = divisions[i];
@@ -96,9 +98,7 @@ TEST(test_parts) {
 /// elsewhere the frame is as ever.
 TEST(test_near) {
     OWNED(gpu_scene_free) gpu_scene at;
-    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(&at);
     const ewa_camera outside = at.camera;
     const double *low = at.bounds.low_world, *high = at.bounds.high_world, z = (low[2] + high[2]) / 2;
     const double eye[3] = {high[0], (low[1] + high[1]) / 2, z}, along[3] = {high[0], high[1], z}, up[3] = {0, 0, 1};
@@ -155,9 +155,7 @@ TEST(test_first_frame) {
 
 TEST(test_times) {
     OWNED(gpu_scene_free) gpu_scene at;
-    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
-    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = make(&at);
     for (int frame = 0; frame < 2; frame++) {
         ewa_render_stats stats;
         const ewa_frame planes = {.rgba8 = rgba8};

@@ -67,6 +67,14 @@ ewa_status lod_build(ewa_context *context, const char *const *names, uint32_t co
                          stats);
 }
 
+void lod_build_ground(uint64_t count, const char *out) {
+    static const char *const names[] = {"ground.ply"};
+    lod_clear();
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    lod_save(lod_ground(context, 0, count, (lod_look){true, true}), names[0]);
+    assert_int_equal(lod_build(context, names, 1, out, NULL, NULL), EWA_OK);
+}
+
 static int compare_points(const void *a, const void *b) { return memcmp(a, b, sizeof(lod_point)); }
 
 lod_point *lod_points(ewa_cloud *const *clouds, uint32_t cloud_count, bool surfels, uint64_t *count) {

@@ -29,6 +29,9 @@ ewa_cloud *lod_load(ewa_context *context, const char *name);
 ewa_status lod_build(ewa_context *context, const char *const *names, uint32_t count, const char *out,
                      const ewa_lod_build_options *options, ewa_lod_build_stats *stats);
 
+/// Empties the test's folder and makes an octree there, of a ground of so many points with colours, normals and radii.
+void lod_build_ground(uint64_t count, const char *out);
+
 /// A point as its bytes are compared.
 typedef struct lod_point {
     int64_t at[3]; ///< in steps of 2^-20, from 0

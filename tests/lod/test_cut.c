@@ -14,11 +14,7 @@ enum { POINTS = 300000, SIDE_PX = 240, BYTES = 4 * SIDE_PX * SIDE_PX };
 static const char file[] = "ground.copc.laz";
 
 static int enter(void **state) {
-    static const char *const names[] = {"ground.ply"};
-    lod_clear();
-    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
-    lod_save(lod_ground(context, 0, POINTS, (lod_look){true, true}), names[0]);
-    assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
+    lod_build_ground(POINTS, file);
     return 0;
 }
 

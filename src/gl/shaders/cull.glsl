@@ -142,7 +142,7 @@ void write_pairs(uint packet, uint lanes, dvec3 center, Outline o, uvec2 first, 
     p.form = bounds[packet].radius >> 16 | placements[source].material << 16;
     p.segment = segment;
     p.lanes = lanes;
-    if (has(segments[segment].parts, CLIP_MASKS)) p.lanes |= clip_masks[packet] << 16;
+    if (has(segments[segment].streams, CLIP_MASKS)) p.lanes |= clip_masks[packet] << 16;
     p.slope_x = o.near ? 0.0 : o.slope_x;
     p.slope_y = o.near ? 0.0 : o.slope_y;
     precise double across_x = center.x - double(p.slope_x), across_y = center.y - double(p.slope_y);

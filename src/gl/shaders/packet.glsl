@@ -6,7 +6,7 @@
 layout(std430, binding = 1) readonly buffer PacketBlock { uint packets[]; };
 
 // Packets of one source that lie side by side in the page, and what their surfels have; src/gl/scene.h is the same in C.
-struct Segment { uint first_group, at, count, source, first, parts, pad0, pad1; };
+struct Segment { uint first_group, at, count, source, first, streams, pad0, pad1; };
 layout(std430, binding = 6) readonly buffer SegmentBlock { Segment segments[]; };
 
 const uint OPACITIES = 4u, CURVATURES = 8u, MATERIALS = 16u, CLIP_MASKS = 32u;

@@ -316,7 +316,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     float place_x = wf_add(wf_fma(t.dx, view.fx_px, t.base_x), c1_px), beyond = reach;
     float place_y = wf_add(wf_fma(t.dy, view.fy_px, t.base_y), c2_px);
     bool concave = false;
-    if (has(segment.parts, CURVATURES)) {
+    if (has(segment.streams, CURVATURES)) {
         vec3 way = contour_way(pairs[pair].packet * 16u + lane, slope, clipped, concave);
         key = wf_add(key, way.z);
         beyond = wf_add(beyond, wf_abs(way.z));
@@ -362,13 +362,13 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     }
     bool is_back = 0.0 < t.facing;
     float opacity = t.peak;
-    if (has(segment.parts, OPACITIES)) {
+    if (has(segment.streams, OPACITIES)) {
         uint index = pairs[pair].packet * 16u + lane, word = opacities[index / 2u];
         uint code = (index & 1u) != 0u ? word >> 16 : word & 0xffffu;
         opacity = wf_mul(t.peak, wf_mul(float(code), UNIT_U16));
     }
     uint material = pairs[pair].form >> 16 & 0xffu;
-    if (has(segment.parts, MATERIALS)) {
+    if (has(segment.streams, MATERIALS)) {
         uint index = pairs[pair].packet * 16u + lane;
         material = materials[index / 4u] >> (index & 3u) * 8u & 0xffu;
     }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Averages of the parts of pixels by the device.
-#include "gl/parts.h"
+#include "gl/averages.h"
 
-ewa_status ewa_gl_parts_use(ewa_gl_compute *gl, const ewa_gl_result *result, const ewa_tile_job *job, ewa_gl_rows rows,
+ewa_status ewa_gl_averages_use(ewa_gl_compute *gl, const ewa_gl_result *result, const ewa_tile_job *job, ewa_gl_rows rows,
                             uint64_t *group_count) {
     enum { SIDE_PX = 8 }; // of a group
     enum { FINER, MEANS_AT };
