@@ -8,6 +8,7 @@
 #include "scene/octree.h"
 #include "scene/streamed.h"
 #include "surface/eye_dome.h"
+#include "surface/render.h"
 #include "surface/packets.h"
 
 #include <math.h>
@@ -332,7 +333,9 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     }
     if (options->many_frames && !renderer->lit_from)
         EWA_TRY(ewa_details_choose(renderer->context, &renderer->details, camera, &options->render, options->lod.error / ERROR_OF_NODES,
-                                   shown.surfels, shown.surfels_count, &renderer->level));
+                                   shown.lod_count == 0, shown.surfels, shown.surfels_count, &renderer->level));
+    const bool by_details = renderer->level > 0 && !shown.lod_count;
+    ewa_renderer_set_parts_of(renderer->surfaces, by_details ? renderer->details.parts_of : NULL, by_details ? shown.surfels_count : 0);
     if (!shown.splats_count && !shown.volume_count)
         return draw_surfaces(renderer, &shown, camera, options, &options->render, frame, stats);
     ewa_gaussian_options among = mixture_options(&shown, options);

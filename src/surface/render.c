@@ -20,6 +20,8 @@ struct ewa_renderer {
     ewa_render_job job;
     ewa_buffer sources;
     ewa_buffer parts, mixing; ///< of pixels, and of pictures of these (supersampling.h)
+    const ewa_surfels *const *parts_of; ///< borrowed: who say into how many parts pixels are divided
+    uint32_t parts_of_count;            ///< 0: the sources do
     uint32_t tile_px; ///< 0: chosen
     ewa_budget budget;
 };
@@ -190,9 +192,15 @@ static void learn(ewa_renderer *renderer, const ewa_render_stats *stats) {
     ewa_budget_learn(&renderer->budget, &frame);
 }
 
+void ewa_renderer_set_parts_of(ewa_renderer *renderer, const ewa_surfels *const *surfels, uint32_t count) {
+    renderer->parts_of = surfels;
+    renderer->parts_of_count = count;
+}
+
 void ewa_render_choose_parts(ewa_renderer *renderer, const ewa_surfels *const *surfels, uint32_t count) {
     ewa_render_job *job = &renderer->job;
     if (!renderer->begun || job->options.supersampling) return;
+    if (renderer->parts_of_count) surfels = renderer->parts_of, count = renderer->parts_of_count;
     uint64_t packet_count = 0;
     for (uint32_t i = 0; i < count; i++) packet_count += surfels_at(job, surfels[i])->packet_count;
     ewa_part_areas areas = {.at = {0}};
@@ -202,17 +210,23 @@ void ewa_render_choose_parts(ewa_renderer *renderer, const ewa_surfels *const *s
     renderer->parts_are_chosen = true;
 }
 
-/// Chooses by the frame's own sources, as they are by now; of several processes by those of all.
+/// Who says into how many parts pixels are divided: a source as it is by now, or another in the sources' place.
+static const ewa_surfels *parts_of(const ewa_renderer *renderer, uint32_t i) {
+    return renderer->parts_of_count ? renderer->parts_of[i] : renderer->job.sources[i].surfels;
+}
+
+/// Chooses by the frame's own surfels; of several processes by those of all.
 static ewa_status choose_parts(ewa_renderer *renderer) {
     ewa_render_job *job = &renderer->job;
     if (job->options.supersampling || renderer->parts_are_chosen) return EWA_OK;
     const ewa_backend *backend = renderer->backend;
+    const uint32_t count = renderer->parts_of_count ? renderer->parts_of_count : job->source_count;
     int64_t packet_count = 0;
-    for (uint32_t i = 0; i < job->source_count; i++) packet_count += job->sources[i].surfels->packet_count;
+    for (uint32_t i = 0; i < count; i++) packet_count += parts_of(renderer, i)->packet_count;
     if (backend->add) EWA_TRY(backend->add(renderer->state, &packet_count, 1));
     ewa_part_areas areas = {.at = {0}};
-    for (uint32_t i = 0; i < job->source_count; i++)
-        ewa_part_areas_add_surfels(&areas, &job->camera, job->sources[i].surfels, ewa_part_areas_step((uint64_t)packet_count));
+    for (uint32_t i = 0; i < count; i++)
+        ewa_part_areas_add_surfels(&areas, &job->camera, parts_of(renderer, i), ewa_part_areas_step((uint64_t)packet_count));
     if (backend->add) EWA_TRY(backend->add(renderer->state, areas.at, EWA_PART_PLACES));
     job->parts = ewa_parts_for(ewa_part_areas_octaves(&areas), &job->camera);
     return EWA_OK;

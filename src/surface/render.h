@@ -41,6 +41,10 @@ ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32
 /// some of them.
 void ewa_render_choose_parts(ewa_renderer *renderer, const ewa_surfels *const *surfels, uint32_t count);
 
+/// Has `count` sets of surfels say so for all frames that follow, in the sources' place: levels that stand for them look like them in as
+/// many parts. The list and the surfels are the caller's, who keeps them until it says otherwise; 0: the sources do.
+void ewa_renderer_set_parts_of(ewa_renderer *renderer, const ewa_surfels *const *surfels, uint32_t count);
+
 /// Frames of many sources, from octrees or ranks, with more surfels than so many have tiles of this side: fewer tiles' records
 /// fit in cache than in one of the usual size.
 enum { EWA_DENSE_SURFELS = 5000000, EWA_DENSE_TILE_PX = 32 };

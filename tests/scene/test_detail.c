@@ -6,6 +6,8 @@
 #include "check.h"
 #include "quality/far_scene.h"
 #include "scene/draw.h"
+#include "surface/levels.h"
+#include "surface/render.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -90,6 +92,35 @@ TEST_ON(test_films_are_off_by_next_to_nothing, 0) {
     // A frame alone has the bytes that it has among others.
     assert_int_equal(draw(&of, NULL, times / 4.6, &many, again), before);
     assert_memory_equal(again, some, BYTES);
+    ewa_scene_renderer_destroy(&renderer);
+    end_film(&of);
+}
+
+/// Far away levels have the parts of pixels that all surfels have, where that is cheaper than a finer level with its own, and then other
+/// bytes than by their own.
+TEST_ON(test_levels_have_parts_of_all, 0) {
+    film of = make_film(context, FAR_SPHERE, POINTS);
+    ewa_scene_renderer *renderer = make_renderer(context);
+    const ewa_scene_options many = options_of(true), one = options_of(false);
+    WITH_DEFAULTS(ewa_surfels_options, with_levels);
+    with_levels.level_count = EWA_MAX_LEVELS;
+    OWNED(ewa_surfels_destroy) ewa_surfels *finest = check_surfels(of.cloud, &with_levels);
+    uint32_t by_all = 0;
+    for (double times = 2; times < 5; times *= 1.15) {
+        const uint32_t level = draw(&of, renderer, times, &many, some);
+        const ewa_details *details = &renderer->details;
+        if (!level || details->parts_of[0] != of.surfels) continue;
+        draw(&of, NULL, times, &one, all);
+        assert_true(rms(all, some) <= 1);
+        ewa_renderer_set_parts_of(renderer->surfaces, NULL, 0);
+        const ewa_camera camera = far_camera(&of.bounds, times, SIDE_PX, 1);
+        uint32_t found = level;
+        const ewa_surfels *coarse = ewa_levels_find(finest, &found);
+        assert_int_equal(ewa_render(renderer->surfaces, coarse, &camera, &many.render, &(ewa_frame){.rgba8 = again}, NULL), EWA_OK);
+        assert_true(rms(all, again) > rms(all, some));
+        by_all++;
+    }
+    assert_true(by_all > 0);
     ewa_scene_renderer_destroy(&renderer);
     end_film(&of);
 }
