@@ -7,6 +7,7 @@
 #include "gl/eye_dome.h"
 #include "gl/averages.h"
 
+#include <stddef.h>
 #include <string.h>
 
 enum { THREADS = 64, READBACK_HEAD = 64 };
@@ -20,6 +21,7 @@ typedef struct band {
     ewa_gl_result result;
     const ewa_eye_dome_pass *eye_dome; ///< lights it on the device; NULL: nothing does
     bool has_host_records;
+    bool is_spoilt; ///< the driver has left something out
 } band;
 
 static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
@@ -73,7 +75,7 @@ static ewa_status reserve_work(ewa_gl_compute *gl, const band *b) {
 
 /// The planes of the band's pixels. Those of sums are at their start where the band before left them so; else they are set to it.
 static ewa_status reserve_planes(ewa_gl_compute *gl, const band *b) {
-    enum { BEHIND = 9, CUT_WORDS = 8 }; // planes of EWA_GL_SURFACES beside the channels (surface.glsl), words of a cut
+    enum { BEHIND = 10, CUT_WORDS = 8 }; // planes of EWA_GL_SURFACES beside the channels (surface.glsl), words of a cut
     const ewa_tile_job *job = b->job;
     const uint64_t pixels = (uint64_t)b->width_px * b->height_px, channels = job->channel_count;
     const uint64_t sums = channels * (job->fine_sums || job->with_depth || job->with_clips ? 4 : 2) * pixels;
@@ -174,23 +176,23 @@ static ewa_status use(ewa_gl_compute *gl, const band *b, ewa_gl_pass pass) {
 }
 
 /// What follows a dispatch may read all that it wrote.
-static void end_dispatch(ewa_gl_compute *gl, ewa_gl_time stage) {
+static void end_dispatch(ewa_gl_compute *gl, ewa_gl_pass pass) {
     gl->device->counts.dispatches++;
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    ewa_gl_times_mark(&gl->times, stage);
+    ewa_gl_times_mark(&gl->times, pass);
 }
 
 /// Runs the program in use in so many groups, which it numbers through.
-static void dispatch(ewa_gl_compute *gl, uint64_t group_count, ewa_gl_time stage) {
+static void dispatch(ewa_gl_compute *gl, uint64_t group_count, ewa_gl_pass pass) {
     const uint64_t columns = smaller(group_count, gl->device->facts.group_count);
     glDispatchCompute((GLuint)columns, (GLuint)((group_count + columns - 1) / columns), 1);
-    end_dispatch(gl, stage);
+    end_dispatch(gl, pass);
 }
 
 /// Runs it in as many as the programs before have found.
-static void dispatch_counted(ewa_gl_compute *gl, uint32_t argument, ewa_gl_time stage) {
+static void dispatch_counted(ewa_gl_compute *gl, uint32_t argument, ewa_gl_pass pass) {
     glDispatchComputeIndirect((GLintptr)(sizeof(ewa_gl_tally) + (size_t)argument * EWA_GL_ARGUMENT_BYTES));
-    end_dispatch(gl, stage);
+    end_dispatch(gl, pass);
 }
 
 /// What programs see of a page; of a stream that none of its packets has, another stands there, which they do not read.
@@ -207,7 +209,7 @@ static void bind_page(const ewa_gl_page *page) {
 /// Culls the packets of all pages, then sets up what is left of them: a dispatch of each for a page, whatever the number of
 /// its sources.
 static ewa_status set_up(ewa_gl_compute *gl, const band *b) {
-    enum { PAGE, FIRST_SEGMENT, END_SEGMENT };
+    enum { PAGE, FIRST_SEGMENT, END_SEGMENT, PART = 1 };
     const ewa_gl_page_use *uses = gl->uses.data;
     bind(gl, 6, EWA_GL_SEGMENTS);
     for (int pass = EWA_GL_CULL; pass <= EWA_GL_SETUP; pass++) {
@@ -218,9 +220,13 @@ static ewa_status set_up(ewa_gl_compute *gl, const band *b) {
             if (pass == EWA_GL_CULL) {
                 glUniform1ui(FIRST_SEGMENT, uses[i].first);
                 glUniform1ui(END_SEGMENT, uses[i].end);
-                dispatch(gl, uses[i].group_count, EWA_GL_TIME_BIN);
+                dispatch(gl, uses[i].group_count, EWA_GL_CULL);
             } else {
-                dispatch_counted(gl, EWA_GL_OF_PAGES + i, EWA_GL_TIME_SETUP);
+                for (uint32_t part = 0; part < b->parts; part++) {
+                    glUniform1ui(PART, part);
+                    dispatch_counted(gl, EWA_GL_OF_PAGES + i, EWA_GL_SETUP);
+                    if (part + 1 < b->parts) glFlush();
+                }
             }
         }
     }
@@ -228,7 +234,7 @@ static ewa_status set_up(ewa_gl_compute *gl, const band *b) {
     return ewa_gl_check(gl->device, "set-up");
 }
 
-/// Waits, and notes what the stages took.
+/// Waits, and notes what the passes took.
 static ewa_status wait_for(ewa_gl_compute *gl, const char *what) {
     EWA_TRY(ewa_gl_wait(gl->device, what));
     ewa_gl_times_read(&gl->times);
@@ -278,44 +284,62 @@ static ewa_status make_host_records(ewa_gl_compute *gl, const band *b, bool *aga
     return ewa_gl_check(gl->device, "near surfels");
 }
 
-/// Goes over the splats of units, or tiles, in parts.
-static ewa_status pass_over(ewa_gl_compute *gl, const band *b, ewa_gl_pass pass, ewa_gl_time stage) {
+/// Goes over the splats of units in parts.
+static ewa_status pass_over(ewa_gl_compute *gl, const band *b, ewa_gl_pass pass) {
     enum { PART };
     EWA_TRY(use(gl, b, pass));
     for (uint32_t part = 0; part < b->parts; part++) {
         glUniform1ui(PART, part);
-        if (pass == EWA_GL_EDGES)
-            dispatch(gl, (b->tile_count + b->parts - 1) / b->parts, stage);
-        else
-            dispatch_counted(gl, EWA_GL_OF_UNITS, stage);
+        dispatch_counted(gl, EWA_GL_OF_UNITS, pass);
         if (part + 1 < b->parts) glFlush();
     }
     return EWA_OK;
 }
 
-/// Lists, sums, surfaces and pixels, and the way of these and the counts to where the host can read them.
-static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
+/// Goes over the splats of tiles whose edges are open, in rounds [first, end) of as many parts.
+static ewa_status go_behind_edges(ewa_gl_compute *gl, const band *b, uint32_t first, uint32_t end) {
+    enum { PART, MOST_STEPS, ROUND_NUMBER, IS_LAST_ROUND };
+    EWA_TRY(use(gl, b, EWA_GL_EDGES));
+    glUniform1ui(MOST_STEPS, gl->edge_units);
+    for (uint32_t round = first; round < end; round++) {
+        glUniform1ui(ROUND_NUMBER, round);
+        glUniform1ui(IS_LAST_ROUND, round + 1 == end);
+        for (uint32_t part = 0; part < b->parts; part++) {
+            glUniform1ui(PART, part);
+            dispatch(gl, (b->tile_count + b->parts - 1) / b->parts, EWA_GL_EDGES);
+            if (part + 1 < b->parts || round + 1 < end) glFlush();
+        }
+    }
+    return EWA_OK;
+}
+
+/// Lists and sums, to the first surface.
+static ewa_status draw_first_surface(ewa_gl_compute *gl, const band *b) {
     EWA_TRY(use(gl, b, EWA_GL_DIVIDE));
-    dispatch(gl, (b->tile_count + THREADS - 1) / THREADS, EWA_GL_TIME_SETUP);
+    dispatch(gl, (b->tile_count + THREADS - 1) / THREADS, EWA_GL_DIVIDE);
     EWA_TRY(use(gl, b, EWA_GL_FILL));
-    dispatch_counted(gl, EWA_GL_OF_LISTS, EWA_GL_TIME_SETUP);
+    dispatch_counted(gl, EWA_GL_OF_LISTS, EWA_GL_FILL);
     bind_pixels(gl);
-    EWA_TRY(pass_over(gl, b, EWA_GL_VISIBILITY, EWA_GL_TIME_VISIBILITY));
-    EWA_TRY(pass_over(gl, b, EWA_GL_SUMS, EWA_GL_TIME_ACCUMULATE));
+    EWA_TRY(pass_over(gl, b, EWA_GL_VISIBILITY));
+    EWA_TRY(pass_over(gl, b, EWA_GL_SUMS));
     EWA_TRY(use(gl, b, EWA_GL_FIRST_SURFACE));
-    dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
-    if (b->job->layers > 1) EWA_TRY(pass_over(gl, b, EWA_GL_EDGES, EWA_GL_TIME_EDGES));
+    dispatch(gl, b->tile_count, EWA_GL_FIRST_SURFACE);
+    return EWA_OK;
+}
+
+/// Surfaces to pixels, and the way of these and the counts to where the host can read them.
+static ewa_status draw_picture(ewa_gl_compute *gl, const band *b) {
     EWA_TRY(use(gl, b, EWA_GL_PICTURE));
-    dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
+    dispatch(gl, b->tile_count, EWA_GL_PICTURE);
     if (b->eye_dome) {
         uint64_t group_count;
         EWA_TRY(ewa_gl_eye_dome_use(gl, &b->eye_dome->eye_dome, &group_count));
-        dispatch(gl, group_count, EWA_GL_TIME_RESOLVE);
+        dispatch(gl, group_count, EWA_GL_EYE_DOME);
     }
     if (b->result.finer > 1) {
         uint64_t group_count;
         EWA_TRY(ewa_gl_averages_use(gl, &b->result, b->job, b->rows, &group_count));
-        dispatch(gl, group_count, EWA_GL_TIME_RESOLVE);
+        dispatch(gl, group_count, EWA_GL_AVERAGES);
     }
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_READBACK].name);
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
@@ -338,17 +362,24 @@ static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tal
     return raise(gl, &gl->marks.units, tally->unit_count, EWA_GL_UNITS, "work", EWA_GL_UNIT_BYTES);
 }
 
-/// Refuses a band of which the driver has left something out.
-static ewa_status check_loops(const ewa_gl_compute *gl, const ewa_gl_tally *tally) {
-    if (!tally->stopped_count) return EWA_OK;
-    return ewa_fail(gl->context, EWA_ERROR_LIMIT,
-                    "OpenGL: %s stops programs that take long: too many splats lie behind the edges of %u pixels; draw by the CPU, "
-                    "or with one edge layer",
-                    gl->device->facts.renderer, tally->stopped_count);
+/// Of a band of which the driver has left something out, since a program took long, fewer units are taken at a time; at last it is
+/// refused. `*again`: it has to be drawn again.
+static ewa_status check_loops(ewa_gl_compute *gl, band *b, const ewa_gl_tally *tally, bool *again) {
+    enum { FEWER = 4 };
+    b->is_spoilt = tally->stopped_count > 0;
+    if (!b->is_spoilt) return EWA_OK;
+    if (gl->edge_units == 1)
+        return ewa_fail(gl->context, EWA_ERROR_LIMIT,
+                        "OpenGL: %s stops programs that take long: too many splats lie behind the edges of %u pixels; draw by the "
+                        "CPU, or with one edge layer",
+                        gl->device->facts.renderer, tally->stopped_count);
+    gl->edge_units = gl->edge_units > FEWER ? gl->edge_units / FEWER : 1;
+    *again = true;
+    return EWA_OK;
 }
 
-/// Fetches the counts and, unless it has to be drawn again, the pixels.
-static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outcome, bool *again) {
+/// Fetches the counts and, unless it has to be drawn again or `*unfinished`, the pixels.
+static ewa_status fetch(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome, bool *again, bool *unfinished) {
     EWA_TRY(wait_for(gl, "the picture"));
     const uint64_t size_bytes = READBACK_HEAD + b->result.read_words * sizeof(uint32_t);
     gl->device->counts.readbacks++, gl->device->counts.readback_bytes += size_bytes;
@@ -358,8 +389,11 @@ static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outco
     ewa_gl_tally tally;
     memcpy(&tally, from, sizeof tally);
     ewa_status status = check_band(gl, b, &tally, again);
-    if (status == EWA_OK && !*again) status = check_loops(gl, &tally);
-    if (status == EWA_OK && !*again) {
+    if (status == EWA_OK && !*again) status = check_loops(gl, b, &tally, again);
+    *unfinished = tally.unfinished_count > 0;
+    if (status == EWA_OK && !*again && !*unfinished) {
+        enum { SPARE = 8 };
+        gl->marks.rounds = tally.round_count + tally.round_count / SPARE;
         ewa_gl_result_copy(&b->result, from + READBACK_HEAD);
         outcome->broken += tally.broken_count, outcome->drawn += tally.list_count;
         outcome->kept_packets = tally.kept_count;
@@ -391,9 +425,17 @@ static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome
     EWA_TRY(set_up(gl, b));
     if (b->has_host_records) EWA_TRY(make_host_records(gl, b, again));
     if (*again) return EWA_OK;
-    EWA_TRY(draw_pixels(gl, b));
-    EWA_TRY(fetch(gl, b, outcome, again));
-    gl->unfinished = false;
+    EWA_TRY(draw_first_surface(gl, b));
+    bool unfinished = true;
+    uint32_t round = 0, end = gl->marks.rounds ? gl->marks.rounds : 1;
+    for (; unfinished && !*again; round = end, end *= 2) {
+        static const uint32_t none = 0;
+        if (round) ewa_gl_buffer_write(gl->device, &gl->buffers[EWA_GL_COUNTS], offsetof(ewa_gl_tally, unfinished_count), &none, sizeof none);
+        if (b->job->layers > 1) EWA_TRY(go_behind_edges(gl, b, round, end));
+        EWA_TRY(draw_picture(gl, b));
+        EWA_TRY(fetch(gl, b, outcome, again, &unfinished));
+    }
+    gl->unfinished = b->is_spoilt;
     return EWA_OK;
 }
 

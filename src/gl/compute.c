@@ -13,7 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DEFAULT_TILE_PX = 8, DEFAULT_UNIT = 1024 };
+// A group takes 0.4 ms for a unit of large splats, as a slow device calculates; watchdogs wait for seconds.
+enum { DEFAULT_TILE_PX = 8, DEFAULT_UNIT = 1024, DEFAULT_EDGE_UNITS = 64 };
 
 void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     ewa_gl_compute *old = state;
@@ -39,15 +40,15 @@ void ewa_gl_compute_destroy(ewa_context *context, void *state) {
 }
 
 ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict) {
-    enum { STORAGE_BLOCKS = 14, GROUP_THREADS = 256 };
+    enum { STORAGE_BLOCKS = 14, BINDINGS = 16, GROUP_THREADS = 256 };
     const ewa_gl_facts *facts = &device->facts;
     *verdict = (ewa_gl_verdict){.exact = false};
     if (!facts->compute || !facts->with_doubles || facts->storage_count < STORAGE_BLOCKS ||
-        facts->group_threads < GROUP_THREADS)
+        facts->binding_count < BINDINGS || facts->group_threads < GROUP_THREADS)
         return ewa_fail(
             device->context, EWA_ERROR_UNSUPPORTED,
-            "OpenGL: %s (%s) has no compute programs, or small ones: %u storage blocks, groups of %u",
-            facts->renderer, facts->version, facts->storage_count, facts->group_threads);
+            "OpenGL: %s (%s) has no compute programs, or small ones: %u storage blocks in %u places, groups of %u",
+            facts->renderer, facts->version, facts->storage_count, facts->binding_count, facts->group_threads);
     EWA_TRY(ewa_gl_enter(device));
     const uint64_t lose_at = device->lose_at, hang_at = device->hang_at;
     device->lose_at = device->hang_at = 0; // which tests mean of frames
@@ -73,6 +74,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->tile_px = (uint32_t)ewa_gl_tuning("tile_px", DEFAULT_TILE_PX);
     made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
+    made->edge_units = (uint32_t)ewa_gl_tuning("edge_units", DEFAULT_EDGE_UNITS);
     made->min_parts = (uint32_t)ewa_gl_tuning("parts", 1);
     made->residents.page_packets = (uint32_t)ewa_gl_tuning("page", 0);
     made->residents.kept_bytes = ewa_gl_tuning("kept", 0);
@@ -234,7 +236,9 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     ewa_job_finish(gl->context, &gl->room, frame, outcome.broken);
     *stats = (ewa_render_stats){0};
     ewa_gl_times_tell(&gl->times, stats);
-    const double longest_s = fmax(fmax(stats->visibility_s, stats->accumulate_s), stats->edge_s);
+    const double *passes_s = gl->times.seconds; // those that are given in parts
+    const double longest_s = fmax(fmax(passes_s[EWA_GL_SETUP], passes_s[EWA_GL_VISIBILITY]),
+                                  fmax(passes_s[EWA_GL_SUMS], passes_s[EWA_GL_EDGES]));
     if (gl->device->surfel_count) gl->surfel_s = longest_s / (double)gl->device->surfel_count;
     ewa_job_count(&job, 0, stats);
     uint64_t packets = 0;

@@ -46,6 +46,7 @@ typedef enum ewa_gl_buffer_kind {
 /// How many items buffers have room for; what a frame found too few is raised, and stays.
 typedef struct ewa_gl_marks {
     uint32_t pairs, requests, list, units;
+    uint32_t rounds; ///< over edges
 } ewa_gl_marks;
 
 /// A band of rows, from a multiple of EWA_FIELD_PX.
@@ -92,6 +93,7 @@ typedef struct ewa_gl_compute {
     bool needs_host;  ///< the last band asked the host for something: the next is likely to
     bool unfinished; ///< a band ended early: its sums are not back at their start
     uint32_t tile_px, unit_splats, min_parts;
+    uint32_t edge_units; ///< of a tile that a dispatch over edges takes, at most
     uint32_t finer;   ///< parts of a pixel along each side that the device averages; 1: none
     ewa_buffer parts; ///< of pixels, or their averages
 } ewa_gl_compute;

@@ -66,13 +66,16 @@ static bool create_context(ewa_gl *device, EGLDisplay display) {
     EGLint count = 0;
     if (!eglBindAPI(EGL_OPENGL_API)) return false;
     if (!eglChooseConfig(display, config_wanted, &config, 1, &count) || count < 1) config = EGL_NO_CONFIG_KHR;
-    const bool robust = major > 1 || minor >= 5;
+    // Not every driver can tell of resets, and then some refuse to be asked to.
+    const bool may_be_robust = major > 1 || minor >= 5;
     static const EGLint versions[2][2] = {{4, 3}, {3, 3}};
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 4; i++) {
+        const bool robust = i % 2 == 0;
+        if (robust && (!may_be_robust || ewa_gl_tuning("plain", 0))) continue;
         const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 versions[i][0],
+                                 versions[i / 2][0],
                                  EGL_CONTEXT_MINOR_VERSION,
-                                 versions[i][1],
+                                 versions[i / 2][1],
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                  robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY : EGL_NONE,
@@ -113,6 +116,7 @@ static void read_facts(ewa_gl_facts *facts) {
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     facts->storage_bytes = bytes > 0 ? (uint64_t)bytes : 0;
     facts->storage_count = integer_of(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
+    facts->binding_count = integer_of(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
     facts->group_threads = integer_of(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
     GLint groups = 0;
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &groups);
@@ -207,6 +211,7 @@ ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device) {
     ewa_gl_facts *facts = &made->facts;
     facts->storage_bytes = ewa_gl_tuning("storage", facts->storage_bytes);
     facts->storage_count = (uint32_t)ewa_gl_tuning("blocks", facts->storage_count);
+    facts->binding_count = (uint32_t)ewa_gl_tuning("bindings", facts->binding_count);
     facts->group_count = (uint32_t)ewa_gl_tuning("groups", facts->group_count);
     made->lose_at = ewa_gl_tuning("lose", 0), made->hang_at = ewa_gl_tuning("hang", 0);
     *device = made;
@@ -258,7 +263,8 @@ ewa_status ewa_gl_check(ewa_gl *device, const char *what) {
         return lose(device, what, "was reset");
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR) return EWA_OK;
-    while (glGetError() != GL_NO_ERROR && epoxy_gl_version() < 45) {
+    enum { KINDS = 8 }; // of errors, each noted once; a lost context notes the same for ever
+    for (int i = 0; i < KINDS && glGetError() != GL_NO_ERROR; i++) {
     }
     if (error == GL_OUT_OF_MEMORY)
         return ewa_fail(device->context, EWA_ERROR_MEMORY, "OpenGL: %s has too little memory for %s",

@@ -23,6 +23,7 @@ typedef struct ewa_gl_facts {
     bool with_doubles;      ///< of 64 bits in shaders
     uint64_t storage_bytes; ///< of a buffer that shaders see, at most
     uint32_t storage_count; ///< of those at a time
+    uint32_t binding_count; ///< places where those are bound
     uint32_t group_threads; ///< of a work group, at most
     uint32_t group_count;   ///< along x, at most
     uint32_t texture_px;    ///< side of a picture that can be drawn into, at most

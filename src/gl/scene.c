@@ -8,7 +8,7 @@
 #include <string.h>
 
 static_assert(sizeof(ewa_gl_view) == 200 && sizeof(ewa_gl_clip) == 144 && sizeof(ewa_gl_near) == 268 &&
-                  sizeof(ewa_gl_placement) == 456 && sizeof(ewa_gl_tally) == 48 && sizeof(ewa_gl_segment) == 32,
+                  sizeof(ewa_gl_placement) == 456 && sizeof(ewa_gl_tally) == 64 && sizeof(ewa_gl_segment) == 32,
               "as std430 has them");
 
 void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides) {

@@ -64,7 +64,8 @@ typedef struct ewa_gl_tally {
     uint32_t pair_count, kept_count, near_count, clip_count, list_count, carry, unit_count, broken_count;
     uint32_t culled_groups, divided_groups;
     uint32_t stopped_count; ///< pixels whose program the driver ended early
-    uint32_t pad;
+    uint32_t unfinished_count, round_count; ///< tiles of which more rounds over edges are to come; rounds that others took
+    uint32_t pad[3];
 } ewa_gl_tally;
 
 /// Packets of one source that lie side by side in a page, and whose surfels have `streams` (bits of ewa_gl_stream). Culling has a
@@ -84,7 +85,7 @@ typedef struct ewa_gl_host_request {
 } ewa_gl_host_request;
 
 /// A packet in a field, a tile of work, a unit of it, and a record in a list, as programs have them.
-enum { EWA_GL_PAIR_BYTES = 40, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16, EWA_GL_ENTRY_BYTES = 8 };
+enum { EWA_GL_PAIR_BYTES = 40, EWA_GL_TILE_BYTES = 24, EWA_GL_UNIT_BYTES = 16, EWA_GL_ENTRY_BYTES = 8 };
 
 /// ewa_clip.
 typedef struct ewa_gl_clip {

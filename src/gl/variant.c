@@ -80,6 +80,21 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
     return at;
 }
 
+const char *ewa_gl_pass_name(ewa_gl_pass pass) {
+    static const char *const names[EWA_GL_PASSES] = {[EWA_GL_CULL] = "culling",
+                                                     [EWA_GL_SETUP] = "set-up",
+                                                     [EWA_GL_DIVIDE] = "units",
+                                                     [EWA_GL_FILL] = "lists",
+                                                     [EWA_GL_VISIBILITY] = "visibility",
+                                                     [EWA_GL_SUMS] = "accumulation",
+                                                     [EWA_GL_FIRST_SURFACE] = "first surface",
+                                                     [EWA_GL_EDGES] = "edges",
+                                                     [EWA_GL_PICTURE] = "picture",
+                                                     [EWA_GL_EYE_DOME] = "eye-dome lighting",
+                                                     [EWA_GL_AVERAGES] = "averages"};
+    return names[pass];
+}
+
 void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_variant *v, ewa_gl_source *source) {
     enum { COMMON = 2, OWN = EWA_GL_MAX_PIECES - COMMON };
     static const char *const pieces[][OWN] = {
@@ -117,21 +132,10 @@ void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_vari
 }
 
 static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ewa_gl_variant *v, GLuint *program) {
-    static const char *const names[] = {[EWA_GL_CULL] = "culling",
-                                        [EWA_GL_SETUP] = "set-up",
-                                        [EWA_GL_DIVIDE] = "units",
-                                        [EWA_GL_FILL] = "lists",
-                                        [EWA_GL_VISIBILITY] = "visibility",
-                                        [EWA_GL_SUMS] = "accumulation",
-                                        [EWA_GL_FIRST_SURFACE] = "first surface",
-                                        [EWA_GL_EDGES] = "edges",
-                                        [EWA_GL_PICTURE] = "picture",
-                                        [EWA_GL_EYE_DOME] = "eye-dome lighting",
-                                        [EWA_GL_AVERAGES] = "averages"};
     ewa_gl_source source;
     ewa_gl_variant_write(&variants->arithmetic, v, &source);
     const ewa_gl_stage stage = {GL_COMPUTE_SHADER, source.head, source.pieces, source.piece_count};
-    return ewa_gl_program_make(device, names[v->pass], &stage, 1, program);
+    return ewa_gl_program_make(device, ewa_gl_pass_name((ewa_gl_pass)v->pass), &stage, 1, program);
 }
 
 ewa_status ewa_gl_variant_get(ewa_gl *device, ewa_gl_variants *variants, const ewa_gl_variant *wanted,

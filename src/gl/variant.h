@@ -18,7 +18,8 @@ typedef enum ewa_gl_pass {
     EWA_GL_EDGES,
     EWA_GL_PICTURE,
     EWA_GL_EYE_DOME,
-    EWA_GL_AVERAGES
+    EWA_GL_AVERAGES,
+    EWA_GL_PASSES
 } ewa_gl_pass;
 
 /// What a program is made for; all that it does not depend on is 0.
@@ -53,6 +54,9 @@ typedef struct ewa_gl_source {
     const char *pieces[EWA_GL_MAX_PIECES];
     uint32_t piece_count;
 } ewa_gl_source;
+
+/// What a pass is called.
+const char *ewa_gl_pass_name(ewa_gl_pass pass);
 
 void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_variant *variant, ewa_gl_source *source);
 

@@ -43,8 +43,8 @@ static void draw(ewa_renderer *renderer, ewa_surfels *const *parts, const char *
 
 TEST_ON(test_division_has_no_say, 0) {
     static const char *const tunings[][2] = {{"tile_px=8 unit=1 page=3", "tile_px=16 storage=4500000"},
-                                             {"tile_px=4 unit=7 page=100", "tile_px=16 unit=5000"},
-                                             {"tile_px=16 unit=100 page=7 parts=3", "storage=4500000"}};
+                                             {"tile_px=4 unit=7 page=100 edge_units=4", "tile_px=16 unit=5000"},
+                                             {"tile_px=16 unit=100 page=7 parts=3 edge_units=1", "storage=4500000"}};
     static const scene_kind kinds[] = {SCENE_CUBE, SCENE_NEAR, SCENE_ELLIPSES};
     OWNED(picture_free) picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {

@@ -24,7 +24,7 @@ layout(std140, binding = 0) uniform BandBlock {
 // many pairs there are up to there.
 layout(std430, binding = 13) buffer CountBlock {
     uint pair_count, kept_count, near_count, clip_count, list_count, carry, unit_count, broken_count;
-    uint culled_groups, divided_groups, stopped_count, pad;
+    uint culled_groups, divided_groups, stopped_count, unfinished_count, round_count, pad[3];
     uvec4 arguments[];
 };
 
@@ -38,8 +38,8 @@ uvec4 groups_for(uint count, uint rest) {
 uint group_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
 // A tile of work: where the next of its splats goes in `list` (in the end: where they end); how many there are; near
-// surfels [first, end) of its field; whether anything is wanted behind its first surface.
-struct Tile { uint next, count, first_near, end_near, open; };
+// surfels [first, end) of its field; the surface behind the first that is wanted, 0: none is; the steps of it that are done.
+struct Tile { uint next, count, first_near, end_near, open, step; };
 
 bool has(uint flags, uint flag) { return (flags & flag) != 0u; }
 

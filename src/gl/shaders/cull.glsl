@@ -213,8 +213,9 @@ void main() {
     if (gl_LocalInvocationIndex != 0u) return;
     if (atomicAdd(culled_groups, 1u) + 1u < gl_NumWorkGroups.x * gl_NumWorkGroups.y) return;
     uint count = atomicAdd(pair_count, 0u), before = page == 0u ? 0u : arguments[OF_PAGES + page - 1u].w;
-    bool fits = count <= pair_capacity;
-    arguments[OF_PAGES + page] = groups_for(fits ? (count - before + 3u) / 4u : 0u, count);
+    bool fits = count <= pair_capacity && atomicAdd(carry, 0u) == 0u;
+    uint groups = fits ? (count - before + 3u) / 4u : 0u;
+    arguments[OF_PAGES + page] = groups_for((groups + parts - 1u) / parts, count);
     arguments[OF_LISTS] = groups_for(fits ? (count + 3u) / 4u : 0u, count);
     culled_groups = 0u;
 }

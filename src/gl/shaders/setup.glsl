@@ -15,6 +15,7 @@ layout(std430, binding = 5) writeonly buffer RecordBlock { Record records[]; };
 layout(std430, binding = 11) writeonly buffer RequestBlock { uvec4 requests[]; }; // surfel, source, field; near ones, then those with lines
 
 layout(location = 0) uniform uint page;
+layout(location = 1) uniform uint part;
 
 Segment segment;
 View view;
@@ -407,7 +408,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
 }
 
 void main() {
-    uint index = group_number() * 64u + gl_LocalInvocationID.x, lane = index & 15u;
+    uint index = (group_number() * parts + part) * 64u + gl_LocalInvocationID.x, lane = index & 15u;
     uint before = page == 0u ? 0u : arguments[OF_PAGES + page - 1u].w, pair = before + index / 16u;
     if (pair >= arguments[OF_PAGES + page].w) return;
     uint at = pair * 16u + lane;

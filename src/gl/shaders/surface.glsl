@@ -18,11 +18,12 @@ layout(std430, binding = 14) writeonly buffer ResultBlock { uint result[]; }; //
 layout(std430, binding = 15) readonly buffer EnvironmentBlock { float texels[]; };
 
 // Of the first surface its channels; of those behind red, green, blue, alpha; the first one's cut: cover, x, y, flag; the key
-// that what is behind lies beyond.
+// that what is behind lies beyond; the nearest that was found there, while more of it is to come.
 layout(std430, binding = 2) buffer SurfaceBlock { float surfaces[]; };
 #define FINALIZED(channel) surfaces[(channel) * pixel_count + pixel]
 #define BEHIND(plane) surfaces[(uint(CHANNELS) + (plane)) * pixel_count + pixel]
 #define PASSED BEHIND(8u)
+#define FOUND BEHIND(9u)
 
 const uint EDGE_ANTIALIASING = 1u, TRANSPARENT = 2u, ONE_PASS = 4u, ORTHOGRAPHIC_VIEW = 8u;
 const uint UNSHADED = 0u, LAMBERT = 1u, LIGHTS = 2u, PHONG = 3u;
@@ -327,14 +328,17 @@ void main() {
 #endif
     }
     barrier();
-    if (gl_LocalInvocationIndex == 0u) tiles[tile].open = still_open;
+    if (gl_LocalInvocationIndex == 0u) {
+        tiles[tile].open = still_open;
+        tiles[tile].step = 0u;
+    }
 }
 #endif
 
 #if PASS == 5
 void main() {
     uint tile = group_number();
-    if (tile >= tile_count) return;
+    if (tile >= tile_count || unfinished_count != 0u) return;
     uvec2 in_band = uvec2(tile % tiles_per_row, tile / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
     bool inside = all(lessThan(in_band, band_px));
     pixel_count = band_px.x * band_px.y;
