@@ -58,6 +58,12 @@ static void print_markdown(const probe *found) {
     printf("| wait for a dispatch; a dispatch | %.3g; %.3g ms |\n", rates->wait_ms, rates->dispatch_ms);
     printf("| upload, clear of %.1f MB | %.3g, %.3g ms |\n", rates->readback_mb, rates->upload_ms, rates->clear_ms);
     printf("| compiling the set-up program | %.3g ms |\n", rates->compile_ms);
+    if (!found->usable) return;
+    printf("| passes of a frame: a torus of %u surfels, %ux%u | ms |\n", rates->pass_splat_count, rates->pass_width_px,
+           rates->pass_height_px);
+    for (int pass = 0; pass < EWA_GL_PASSES; pass++)
+        printf("| %s%s | %.3g |\n", ewa_gl_pass_name((ewa_gl_pass)pass), pass == EWA_GL_AVERAGES ? " of 2x2 parts" : "",
+               rates->pass_ms[pass]);
 }
 
 static void print_json(const probe *found) {
@@ -86,7 +92,12 @@ static void print_json(const probe *found) {
            rates->wait_ms, rates->dispatch_ms);
     printf("  \"upload_ms\": %.4g,\n  \"clear_ms\": %.4g,\n  \"compile_ms\": %.4g,\n", rates->upload_ms,
            rates->clear_ms, rates->compile_ms);
-    printf("  \"readback_mb\": %.4g,\n  \"readback_ms\": %.4g\n}\n", rates->readback_mb, rates->readback_ms);
+    printf("  \"readback_mb\": %.4g,\n  \"readback_ms\": %.4g,\n", rates->readback_mb, rates->readback_ms);
+    printf("  \"pass_splats\": %u,\n  \"pass_size_px\": [%u, %u],\n  \"pass_ms\": {", rates->pass_splat_count,
+           rates->pass_width_px, rates->pass_height_px);
+    for (int pass = 0; pass < EWA_GL_PASSES && found->usable; pass++)
+        printf("%s\"%s\": %.4g", pass ? ", " : "", ewa_gl_pass_name((ewa_gl_pass)pass), rates->pass_ms[pass]);
+    printf("}\n}\n");
 }
 
 static ewa_status look(ewa_gl *device, probe *found) {
@@ -126,8 +137,9 @@ int main(int count, char **words) {
         return NO_DEVICE;
     }
     probe found = {.usable = false};
-    const ewa_status status = look(device, &found);
+    ewa_status status = look(device, &found);
     ewa_gl_close(&device);
+    if (status == EWA_OK && found.usable) status = probe_passes(context, found.facts.software, &found.rates);
     if (status == EWA_OK) (json ? print_json : print_markdown)(&found);
     ewa_context_destroy(&context);
     return status == EWA_OK ? 0 : 1;

@@ -6,7 +6,7 @@
 #define EWA_TOOLS_GPU_PROBE_RATES_H
 
 #include "gl/memory.h"
-#include "gl/program.h"
+#include "gl/variant.h"
 
 enum { PROBE_WIDTH_PX = 1280, PROBE_HEIGHT_PX = 1024, PROBE_SPLAT_PX = 5 };
 
@@ -25,6 +25,8 @@ typedef struct probe_rates {
     double upload_ms, clear_ms;          ///< of a picture of 4 bytes a pixel
     double compile_ms;                   ///< of the set-up program, by the wall
     double double_tflops;                ///< as fma_tflops, in double precision
+    uint32_t pass_splat_count, pass_width_px, pass_height_px; ///< of the frame whose passes were measured
+    double pass_ms[EWA_GL_PASSES];       ///< of each pass; 0: the device has no clock
 } probe_rates;
 
 /// Something that is measured.
@@ -38,6 +40,9 @@ ewa_status probe_measure(ewa_gl *device, probe_rates *rates);
 
 /// Measures what a frame pays beside its work, with a buffer for two pictures. Errors: as probe_measure().
 ewa_status probe_latencies(ewa_gl *device, const ewa_gl_buffer *buffer, probe_rates *rates);
+
+/// Measures the passes of a frame; the device is not entered. Errors: those of ewa_renderer_create_on() and ewa_render().
+ewa_status probe_passes(ewa_context *context, bool software, probe_rates *rates);
 
 /// Measures blending into floats of `bits`, in billions of pixels per second. Errors: as probe_measure().
 ewa_status probe_blending(ewa_gl *device, int bits, uint32_t splat_count, double *gpx_s);
