@@ -4,6 +4,7 @@
 // Many sources in a frame: they share pages of the device, so that a thousand take as many dispatches as one; and what comes
 // and goes from frame to frame leaves the bytes as the processor draws them.
 #include "gpu_scene.h"
+#include "lod/cut.h"
 #include "lod/lod_scene.h"
 
 #include <stdlib.h>
@@ -101,20 +102,26 @@ TEST(test_coming_and_going) {
     free_sources(SOURCES);
 }
 
-/// An octree of many nodes.
+/// An octree of a ground in the test's folder.
+static ewa_lod *open_ground(ewa_context *context, uint64_t points) {
+    static const char *const names[] = {"ground.ply"}, file[] = "ground.copc.laz";
+    char path[512];
+    ewa_lod *lod = NULL;
+    lod_clear();
+    lod_save(lod_ground(context, 0, points, (lod_look){true, true}), names[0]);
+    assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
+    assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
+    return lod;
+}
+
+/// Many nodes are drawn as one cloud is.
 TEST(test_octree) {
     enum { POINTS = 200000, MIN_NODES = 5 };
-    static const char *const names[] = {"ground.ply"}, file[] = "ground.copc.laz";
-    lod_clear();
     OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
     OWNED(ewa_renderer_destroy) ewa_renderer *cpu = check_renderer(context);
     OWNED(ewa_renderer_destroy) ewa_renderer *gpu = NULL;
     assert_int_equal(ewa_renderer_create_on(context, EWA_BACKEND_GL, &gpu), EWA_OK);
-    lod_save(lod_ground(context, 0, POINTS, (lod_look){true, true}), names[0]);
-    assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
-    char path[512];
-    ewa_lod *lod = NULL;
-    assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_ground(context, POINTS);
     const ewa_camera camera = camera_before();
     WITH_DEFAULTS(ewa_render_options, options);
     WITH_DEFAULTS(ewa_lod_options, lod_options);
@@ -130,7 +137,54 @@ TEST(test_octree) {
     assert_memory_equal(by_gpu, by_cpu, NUMBERS);
     assert_true(info.wait_count == 1);
     assert_in_range(info.dispatch_count, 6, 12);
-    ewa_lod_close(&lod);
+    lod_clear();
+}
+
+/// Nodes of a picture that fade: drawn with their children, both with a weight between none and all.
+static uint32_t count_fading(ewa_lod *lod, const ewa_camera *camera, const ewa_render_options *options, const ewa_lod_options *chosen) {
+    const ewa_lod_scene scene = {.lods = &lod, .lod_count = 1};
+    ewa_cut cut;
+    assert_int_equal(ewa_cut_begin(&cut, &scene, camera, options, chosen), EWA_OK);
+    assert_int_equal(ewa_cut_choose(&cut, false), EWA_OK);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < cut.item_count; i++) count += !cut.items[i].hides && cut.items[i].weight < 1;
+    return count;
+}
+
+/// There and back along a road: nodes are sent once, when they are first drawn. A frame whose nodes are all there is sent what a
+/// frame says of each of them; so are the weights of those that fade.
+TEST(test_dolly) {
+    enum { POINTS = 400000, STEPS = 8, FRAME_BYTES = 16384, SOURCE_BYTES = 1024, SURFEL_BYTES = 30 };
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    OWNED(ewa_renderer_destroy) ewa_renderer *cpu = check_renderer(context);
+    OWNED(ewa_renderer_destroy) ewa_renderer *gpu = NULL;
+    assert_int_equal(ewa_renderer_create_on(context, EWA_BACKEND_GL, &gpu), EWA_OK);
+    OWNED(ewa_lod_close) ewa_lod *lod = open_ground(context, POINTS);
+    WITH_DEFAULTS(ewa_render_options, options);
+    WITH_DEFAULTS(ewa_lod_options, lod_options);
+    options.supersampling = 1;
+    const ewa_frame to_gpu = {.rgba8 = by_gpu}, to_cpu = {.rgba8 = by_cpu};
+    uint64_t surfels_sent = 0, largest_bytes = 0;
+    uint32_t fading = 0, frames_that_sent = 0;
+    for (int frame = 0; frame < 2 * STEPS; frame++) {
+        const int step = frame < STEPS ? frame : 2 * STEPS - 1 - frame;
+        ewa_camera camera = check_camera(WIDTH_PX, HEIGHT_PX);
+        const double eye[3] = {0.1, -4 + 0.45 * step, 0.6}, target[3] = {0, eye[1] + 1, 0}, up[3] = {0, 0, 1};
+        assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+        assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
+        ewa_lod_stats stats;
+        assert_int_equal(ewa_lod_render(lod, gpu, &camera, &options, &lod_options, &to_gpu, &stats), EWA_OK);
+        const uint64_t bytes = info_of(gpu).upload_bytes, beside = FRAME_BYTES + (uint64_t)SOURCE_BYTES * stats.node_count;
+        if (bytes > largest_bytes) largest_bytes = bytes;
+        if (bytes > beside) surfels_sent += (bytes - beside) / SURFEL_BYTES, frames_that_sent++;
+        if (frame >= STEPS && bytes > beside) fail_msg("frame %d: %llu bytes of nodes that are there", frame, (unsigned long long)bytes);
+        fading += count_fading(lod, &camera, &options, &lod_options);
+        assert_int_equal(ewa_lod_render(lod, cpu, &camera, &options, &lod_options, &to_cpu, NULL), EWA_OK);
+        assert_memory_equal(by_gpu, by_cpu, NUMBERS);
+    }
+    print_message("%llu surfels sent in %u of %d frames, at most %llu bytes in one; %u fading nodes\n", (unsigned long long)surfels_sent,
+                  frames_that_sent, 2 * STEPS, (unsigned long long)largest_bytes, fading);
+    assert_true(fading > 0 && frames_that_sent > 2);
     lod_clear();
 }
 

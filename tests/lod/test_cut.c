@@ -96,4 +96,69 @@ TEST_ON(what_gives_way_hides_nothing, 2) {
     assert_true(giving_way >= 8 && pictures_that_tell >= 4);
 }
 
+// ---- What choosing takes
+
+enum { DEPTH = 8, MAX_NODES = 87381 }; // (4^9 - 1) / 3
+
+/// Makes the node that covers a square of a ground of side 2, and those below it.
+static uint32_t add_square(ewa_lod *lod, double x, double y, double side, int depth) {
+    const uint32_t index = lod->node_count++;
+    ewa_lod_node *node = &lod->nodes[index];
+    *node = (ewa_lod_node){.divided = depth < DEPTH,
+                           .box_low_world = {x, y, -side / 8},
+                           .box_high_world = {x + side, y + side, side / 8},
+                           .spacing_world = side / 128,
+                           .largest_radius_world = side / 64,
+                           .error = 2,
+                           .count = 16384};
+    for (int i = 0; i < 8; i++) node->children[i] = EWA_NO_NODE;
+    for (int i = 0; i < 4 && depth < DEPTH; i++) {
+        const uint32_t child = add_square(lod, x + side / 2 * (i & 1), y + side / 2 * (i >> 1), side / 2, depth + 1);
+        lod->nodes[index].children[i] = child;
+    }
+    return index;
+}
+
+/// Choosing looks at the nodes of the cut and those above them, once; at most 27 times where the cut has to be made coarser, for a
+/// bound of surfels: whatever lies below the cut, or in their files, costs nothing.
+TEST_ON(choice_goes_by_the_cut, 1) {
+    OWNED(check_free) ewa_lod_node *nodes = malloc(MAX_NODES * sizeof *nodes);
+    assert_non_null(nodes);
+    ewa_lod lod = {.context = context, .nodes = nodes, .stretch = 1};
+    for (int i = 0; i < 4; i++) lod.appearance.to_world[5 * i] = 1;
+    lod.appearance.radius_scale = 1;
+    add_square(&lod, -1, -1, 2, 0);
+    assert_int_equal(lod.node_count, MAX_NODES);
+    ewa_lod *const lods[] = {&lod};
+    const ewa_lod_scene scene = {.lods = lods, .lod_count = 1};
+    const ewa_camera camera = camera_at(3);
+    WITH_DEFAULTS(ewa_render_options, options);
+    options.supersampling = 1;
+    static const double spacings_px[] = {1.0 / 2, 1.0 / 32, 1.0 / 512, 1.0 / 512};
+    uint32_t counts[4];
+    double took_s[4];
+    for (int k = 0; k < 4; k++) {
+        WITH_DEFAULTS(ewa_lod_options, chosen);
+        chosen.spacing_px = spacings_px[k], chosen.error = 255, chosen.max_splats = (uint64_t)1 << 40;
+        if (k == 3) chosen.max_splats = 1 << 28;
+        ewa_cut cut;
+        double least_s = INFINITY;
+        for (int run = 0; run < 5; run++) {
+            const double start_s = ewa_now_s();
+            assert_int_equal(ewa_cut_begin(&cut, &scene, &camera, &options, &chosen), EWA_OK);
+            assert_int_equal(ewa_cut_choose(&cut, false), EWA_OK);
+            least_s = fmin(least_s, ewa_now_s() - start_s);
+        }
+        counts[k] = cut.item_count, took_s[k] = least_s;
+        print_message("%u nodes, coarser by %.3g: %.3f ms, %.3f us each\n", counts[k], cut.coarser, 1e3 * least_s,
+                      1e6 * least_s / counts[k]);
+        assert_true((cut.coarser > 1) == (k == 3));
+    }
+    assert_true(counts[0] < 1000 && counts[1] > 1000 && counts[2] > 50000);
+    // By the node it takes as long in large cuts as in small ones, within what a busy machine does.
+    assert_true(took_s[2] / counts[2] < 20 * took_s[1] / counts[1]);
+    ewa_buffer_free(context, &lod.items);
+    ewa_buffer_free(context, &lod.cover);
+}
+
 int main(void) { return RUN_TESTS(enter, leave); }
