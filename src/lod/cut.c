@@ -96,14 +96,21 @@ static uint32_t root_levels(const ewa_cut *c) {
     return level;
 }
 
-/// Share of what is finer in what is drawn of a divided node: of its children, or of its surfels beside a level of these.
-static double share_of_finer(const ewa_cut *c, const ewa_lod_node *node, double spacing_px, double coarser) {
-    if (c->options->error == 0) return 1;
-    const double wanted = fmax(spacing_px / c->options->spacing_px,
-                               node->error * (spacing_px / ERROR_SPACING_PX) / c->options->error);
-    const double measure = wanted / coarser;
+/// By how much what is drawn of a node is coarser than it may be.
+static double coarseness_of(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
+    return fmax(spacing_px / c->options->spacing_px, node->error * (spacing_px / ERROR_SPACING_PX) / c->options->error);
+}
+
+/// Share of what is finer beside that.
+static double share_beside(double coarseness, double coarser) {
+    const double measure = coarseness / coarser;
     const double share = (measure - FADE_FROM) / (1 - FADE_FROM);
     return share > 0 ? (share < 1 ? share : 1) : 0;
+}
+
+/// Share of what is finer in what is drawn of a divided node: of its children, or of its surfels beside a level of these.
+static double share_of_finer(const ewa_cut *c, const ewa_lod_node *node, double spacing_px, double coarser) {
+    return c->options->error == 0 ? 1 : share_beside(coarseness_of(c, node, spacing_px), coarser);
 }
 
 /// Share of finer surfels of a root beside a level of them. By default no bound of surfels makes these coarser: what of a town is merged
@@ -242,33 +249,67 @@ uint64_t ewa_cut_bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod) {
 
 // ---- The budget
 
-/// Surfels of the cut below a node, each node by its weight and its part of the picture.
-static double count_below(const ewa_cut *c, uint32_t index) {
+/// A node of the finest cut or above it, as the picture has it.
+typedef struct measured_node {
+    double coarseness; ///< 0: it has no parts
+    double part;       ///< of its box that is in the picture
+    double count;      ///< of its surfels
+    uint32_t end;      ///< of the list of what is below it, which follows
+} measured_node;
+
+/// Lists a node and what is below it in the finest cut.
+static void measure_below(ewa_cut *c, uint32_t index, uint32_t *count) {
     const ewa_lod_node *node = &c->lod->nodes[index];
     const node_view s = view_node(c, node);
-    if (!s.seen) return 0;
-    const double share = share_of_children(c, node, s.spacing_px);
-    double count = 0;
-    if (share < 1) {
+    if ((!s.seen && index) || c->status != EWA_OK) return;
+    ewa_buffer *list = &c->home->measured;
+    c->status = ewa_buffer_grow(c->home->context, list, *count, (size_t)*count + 1, sizeof(measured_node));
+    if (c->status != EWA_OK) return;
+    const uint32_t own = (*count)++;
+    measured_node measured = {.coarseness = node->divided && s.seen ? coarseness_of(c, node, s.spacing_px) : 0};
+    if (s.seen) {
         const double size_px[2] = {c->camera->width_px, c->camera->height_px};
-        double part = 1;
+        measured.part = 1, measured.count = (double)node->count;
         for (int k = 0; k < 2; k++) {
             const double whole = s.high_px[k] - s.low_px[k];
             const double seen = fmin(s.high_px[k], size_px[k]) - fmax(s.low_px[k], 0);
-            if (whole > 0) part *= fmin(fmax(seen / whole, 0), 1);
+            if (whole > 0) measured.part *= fmin(fmax(seen / whole, 0), 1);
         }
-        count = (1 - share) * part * (double)node->count;
     }
+    for (int i = 0; i < 8 && share_beside(measured.coarseness, 1) > 0; i++)
+        if (node->children[i] != EWA_NO_NODE) measure_below(c, node->children[i], count);
+    if (c->status != EWA_OK) return;
+    measured.end = *count;
+    ((measured_node *)list->data)[own] = measured;
+}
+
+/// Surfels of the cut below a node, each node by its weight and by its part of the picture.
+static double count_below(const measured_node *list, uint32_t index, double coarser) {
+    const measured_node *node = &list[index];
+    const double share = share_beside(node->coarseness, coarser);
+    const double count = share < 1 ? (1 - share) * node->part * node->count : 0;
     double parts = 0;
-    for (int i = 0; i < 8 && share > 0; i++)
-        if (node->children[i] != EWA_NO_NODE) parts += count_below(c, node->children[i]);
+    for (uint32_t i = index + 1; i < node->end && share > 0; i = list[i].end) parts += count_below(list, i, coarser);
     return count + share * parts;
 }
 
-static double count_all(ewa_cut *c, double coarser) {
-    double count = 0;
-    c->coarser = coarser;
+/// Measures the nodes of all octrees, a root after the other.
+static ewa_status measure_all(ewa_cut *c) {
+    uint32_t count = 0;
+    c->status = EWA_OK;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        enter_octree(c, c->scene->lods[i]);
+        measure_below(c, 0, &count);
+    }
+    return c->status;
+}
+
+static double count_all(ewa_cut *c, double coarser) {
+    const measured_node *list = c->home->measured.data;
+    double count = 0;
+    uint32_t root = 0;
+    c->coarser = coarser;
+    for (uint32_t i = 0; i < c->scene->lod_count; i++, root = list[root].end) {
         enter_octree(c, c->scene->lods[i]);
         const node_view s = view_node(c, c->lod->nodes);
         double weight = 1;
@@ -277,7 +318,7 @@ static double count_all(ewa_cut *c, double coarser) {
             count += weight * (1 - share) * ldexp((double)c->lod->nodes->count, -2 * (int)level);
             weight *= share;
         }
-        count += weight * count_below(c, 0);
+        count += weight * count_below(list, root, coarser);
     }
     return count;
 }
@@ -354,6 +395,7 @@ static ewa_status choose_coarseness(ewa_cut *c) {
         EWA_TRY(measure_cover(c, &pixels));
         limit = SURFELS_PER_PIXEL * pixels * c->parts_per_pixel;
     }
+    EWA_TRY(measure_all(c));
     double low = 1, high = MAX_COARSER;
     if (count_all(c, 1) <= limit) return EWA_OK;
     for (int i = 0; i < FACTOR_STEPS; i++) {

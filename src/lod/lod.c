@@ -96,6 +96,7 @@ void ewa_lod_close(ewa_lod **lod) {
     ewa_buffer_free(context, &old->appearance_user);
     ewa_buffer_free(context, &old->items);
     ewa_buffer_free(context, &old->cover);
+    ewa_buffer_free(context, &old->measured);
     ewa_buffer_free(context, &old->instances);
     ewa_buffer_free(context, &old->mixing);
     ewa_buffer_free(context, &old->wanted);

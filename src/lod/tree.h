@@ -59,6 +59,7 @@ struct ewa_lod {
     bool is_instance;     ///< file and levels are those of the octree that was opened
     ewa_buffer items;     ///< of the frame (cut.c)
     ewa_buffer cover;     ///< of the frame (cut.c)
+    ewa_buffer measured;  ///< of the frame (cut.c)
     ewa_buffer instances; ///< of the frame: what is drawn
     ewa_buffer mixing;    ///< of the frame: two pictures of it
     ewa_buffer wanted;    ///< nodes to load

@@ -119,8 +119,8 @@ static uint32_t add_square(ewa_lod *lod, double x, double y, double side, int de
     return index;
 }
 
-/// Choosing looks at the nodes of the cut and those above them, once; at most 27 times where the cut has to be made coarser, for a
-/// bound of surfels: whatever lies below the cut, or in their files, costs nothing.
+/// Choosing looks at the nodes of the cut and those above them. Where the cut has to be made coarser, for a bound of surfels, it looks
+/// at those of the finest cut once, and counts them 26 times. Whatever lies below that, or in files, costs nothing.
 TEST_ON(choice_goes_by_the_cut, 1) {
     OWNED(check_free) ewa_lod_node *nodes = malloc(MAX_NODES * sizeof *nodes);
     assert_non_null(nodes);
@@ -159,6 +159,7 @@ TEST_ON(choice_goes_by_the_cut, 1) {
     assert_true(took_s[2] / counts[2] < 20 * took_s[1] / counts[1]);
     ewa_buffer_free(context, &lod.items);
     ewa_buffer_free(context, &lod.cover);
+    ewa_buffer_free(context, &lod.measured);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }
