@@ -18,6 +18,7 @@ trap 'rm -rf "$work"' EXIT
 constants=$(sed -n 's/^ *{"\([A-Z_0-9]*\)", .*}.*/\1/p' "$room/raster_programs.c")
 
 edit=
+version=430
 perspective='s/return (flags.x & flag) != 0u;/return (ELLIPSES \& flag) != 0u;/'
 
 # count STAGE NAME: of $work/program.STAGE.
@@ -29,7 +30,7 @@ count() {
         { op = $2 == "=" ? $3 : $1 }
         op ~ /^Op(F|I|S|U)(Add|Sub|Mul|Div|Mod|Rem|Negate)$/ || op ~ /^Op(Dot|VectorTimes|MatrixTimes|Shift|Bitwise|Not$|Convert|Select$|Logical|FOrd|FUnord|IEqual|INotEqual|ULess|UGreater|SLess|SGreater|Any$|All$|DPd)/ || op == "OpExtInst" { arithmetic++ }
         op ~ /^OpImage(Fetch|Sample|QuerySize)/ { texels++ }
-        op ~ /^OpAtomic/ { control++ }
+        op ~ /^Op(Atomic|SubgroupBallot)/ { control++ }
         op ~ /^Op(BranchConditional|Switch|Kill|Phi)$/ { control++ }
         END { printf "| %s | %d | %d | %d |\n", name, arithmetic, texels, arithmetic + texels + control }'
 }
@@ -58,7 +59,8 @@ compute() {
     name=$1 defines=$2
     shift 2
     {
-        echo "#version 430 core"
+        echo "#version $version core"
+        [ $version = 430 ] || echo "#extension GL_ARB_shader_ballot : require"
         for define in MAX_LIGHTS=8 MAX_LEVELS=33 MAX_MATERIALS=256 MAX_SECTIONS=8 MERGED_SURFACES=8 CONE_BITS=11 CONE_AXIS=1023 \
             CONE_SINE=1022u RADIUS_SHIFT=15 EYE_DOME_REACH=4 TILE_PX=8 CHANNELS=7 WITH_NORMAL=1 WITH_DEPTH=0 DEPTH_CHANNEL=7u WITH_MATERIAL=0 \
             WITH_OPACITY=0 WITH_CLIPS=0 WITH_NEARS=0 WITH_FINE=0 RAYS=0 $defines; do
@@ -127,6 +129,14 @@ for arithmetic in native emulated; do
     row='row_mask(r, from_center.x, from_center.y + float(y)'
     compute_more "s/$row)/($row) \\& $row + 1.0))/" "a row more, $arithmetic"
     compute_more 's/\(atomicOr(reached.*\);$/{ \1; bits \&= bits - 1u; \1; }/' "a bit more, $arithmetic"
+    # In place of bits that are set one by one, a row told to its eight pixels by ballots. All lanes take part in these, in all rows.
+    version=450
+    ballot='own = lane == PIXELu ? unpackUint2x32(ballotARB((bits \& 1u << PIXELu) != 0u)).x : own;'
+    told=
+    for pixel in 0 1 2 3 4 5 6 7; do told="$told $(echo "$ballot" | sed "s/PIXEL/$pixel/g")"; done
+    compute_more "s/^ *for (; bits != 0u.*\$/{ uint own = 0u, lane = gl_SubGroupInvocationARB; $told if (lane < 8u) reached[at + lane] = own; }/" \
+        "a row by ballots, $arithmetic"
+    version=430
     edit=
     compute "visibility, $arithmetic" "$own PASS=1" scene splat masks passes
     compute "accumulation, $arithmetic" "$own PASS=2" scene splat masks sums passes

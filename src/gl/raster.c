@@ -7,6 +7,7 @@
 #include "gl/raster.h"
 #include "gl/backends.h"
 #include "gl/raster_splats.h"
+#include "surface/supersampling.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -33,6 +34,7 @@ void ewa_raster_destroy(ewa_context *context, void *state) {
     ewa_buffer_free(context, &old->indices);
     ewa_buffer_free(context, &old->views);
     ewa_buffer_free(context, &old->row);
+    ewa_buffer_free(context, &old->parts);
     ewa_job_room_free(context, &old->room);
     ewa_release(context, old, 1, sizeof *old);
 }
@@ -41,6 +43,7 @@ ewa_status ewa_raster_create(ewa_context *context, void **state) {
     ewa_raster *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->finer = 1;
     made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     ewa_status status = ewa_gl_open(context, &made->device);
     if (status == EWA_OK) status = ewa_gl_enter(made->device);
@@ -72,7 +75,7 @@ static ewa_status check(const ewa_raster *raster, const ewa_tile_job *job) {
 static bool is_single(const ewa_tile_job *job) { return job->resolve.one_pass && !job->with_materials; }
 
 /// The pictures that a frame needs.
-static uint32_t wanted_pictures(const ewa_tile_job *job) {
+static uint32_t wanted_pictures(const ewa_tile_job *job, uint32_t finer) {
     const bool layered = job->layers > 1, both = !job->view.cull_back,
                normals = job->with_normals || job->with_depth;
     const ewa_resolve *to = &job->resolve;
@@ -98,7 +101,10 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
                  {EWA_PICTURE_PLANES, to->depth || to->normal},
                  {EWA_PICTURE_COVERAGE, to->coverage},
                  {EWA_PICTURE_CODES, to->rgba8},
-                 {EWA_PICTURE_FLOATS, to->rgba}};
+                 {EWA_PICTURE_FLOATS, to->rgba},
+                 {EWA_PICTURE_MEANS, finer > 1 && to->rgba},
+                 {EWA_PICTURE_MEAN_PLANES, finer > 1 && (to->depth || to->normal)},
+                 {EWA_PICTURE_MEAN_COVERAGE, finer > 1 && to->coverage}};
     uint32_t wanted = 0;
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++)
         if (needs[i].wanted) wanted |= 1u << needs[i].picture;
@@ -161,7 +167,7 @@ static ewa_status put_band(ewa_raster *raster, const ewa_tile_job *job) {
     EWA_TRY(ewa_gl_buffer_put(raster->device, &raster->packets, "packets", band->packets.data,
                               (uint64_t)band->packet_count * sizeof(ewa_raster_packet)));
     return ewa_raster_targets_reserve(raster->device, &raster->targets, job->tiles.width_px,
-                                      band->end_row_px - band->first_row_px, wanted_pictures(job));
+                                      band->end_row_px - band->first_row_px, wanted_pictures(job, raster->finer));
 }
 
 static void start_target(const ewa_raster *raster, ewa_raster_target target) {
@@ -178,7 +184,7 @@ static void clear(const ewa_raster *raster, ewa_raster_target target, ewa_raster
 
 /// Lets programs read a target's pictures; not those that are drawn into.
 static void bind_maps(const ewa_raster *raster, uint32_t maps) {
-    for (GLuint i = 0; i <= EWA_PICTURE_REFLECTION_BACK; i++) {
+    for (GLuint i = 0; i < EWA_PICTURE_MEANS; i++) {
         if (i == EWA_PICTURE_OTHER) continue;
         glActiveTexture(GL_TEXTURE0 + i);
         glBindTexture(GL_TEXTURE_2D, maps >> i & 1 ? raster->targets.pictures[i] : 0);
@@ -243,6 +249,7 @@ static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_ra
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "behind"), behind);
     glUniform1i(glGetUniformLocation(program, "whole"), whole);
+    glUniform1i(glGetUniformLocation(program, "finer"), (GLint)raster->finer);
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, raster->resolve_block.name);
     start_target(raster, target);
     bind_maps(raster, maps);
@@ -303,39 +310,57 @@ static ewa_status draw_layers(ewa_raster *raster, const ewa_tile_job *job) {
     return EWA_OK;
 }
 
-static ewa_status read_target(ewa_raster *raster, ewa_raster_target target, GLuint output, GLenum format,
-                              GLenum kind, const ewa_tile_job *job, void *to) {
-    const ewa_raster_band *band = &raster->band;
+/// Pixels that the caller gets of the band: the first, and its size.
+typedef struct band_pixels {
+    uint64_t first;
+    uint32_t width_px, height_px;
+} band_pixels;
+
+static band_pixels pixels_of(const ewa_raster *raster, const ewa_tile_job *job) {
+    const uint32_t finer = raster->finer, first_row_px = raster->band.first_row_px / finer;
+    band_pixels of = {.width_px = job->tiles.width_px / finer, .height_px = raster->band.end_row_px / finer - first_row_px};
+    of.first = (uint64_t)of.width_px * first_row_px;
+    return of;
+}
+
+static ewa_status read_target(ewa_raster *raster, const band_pixels *of, ewa_raster_target target, GLuint output, GLenum format,
+                              GLenum kind, void *to) {
     start_target(raster, target);
     glReadBuffer(GL_COLOR_ATTACHMENT0 + output);
-    glReadPixels(0, 0, (GLsizei)job->tiles.width_px, (GLsizei)(band->end_row_px - band->first_row_px), format,
-                 kind, to);
+    glReadPixels(0, 0, (GLsizei)of->width_px, (GLsizei)of->height_px, format, kind, to);
     return ewa_gl_check(raster->device, "the picture");
 }
 
 /// Fetches the first surface's normals and depths.
-static ewa_status read_planes(ewa_raster *raster, const ewa_tile_job *job) {
+static ewa_status read_planes(ewa_raster *raster, const ewa_tile_job *job, const band_pixels *of) {
     const ewa_resolve *to = &job->resolve;
-    const uint64_t first = (uint64_t)job->tiles.width_px * raster->band.first_row_px,
-                   pixels =
-                       (uint64_t)job->tiles.width_px * (raster->band.end_row_px - raster->band.first_row_px);
-    if (to->coverage)
-        EWA_TRY(read_target(raster, EWA_TARGET_PLANES, 1, GL_RED, GL_FLOAT, job, to->coverage + first));
+    const uint64_t pixels = (uint64_t)of->width_px * of->height_px;
+    const bool means = raster->finer > 1;
+    const ewa_raster_target target = means ? EWA_TARGET_MEANS : EWA_TARGET_PLANES;
+    if (to->coverage) EWA_TRY(read_target(raster, of, target, means ? 2 : 1, GL_RED, GL_FLOAT, to->coverage + of->first));
     if (!(to->normal || to->depth)) return EWA_OK;
     EWA_TRY(ewa_buffer_reserve(raster->context, &raster->row, pixels, 4 * sizeof(float)));
-    EWA_TRY(read_target(raster, EWA_TARGET_PLANES, 0, GL_RGBA, GL_FLOAT, job, raster->row.data));
+    EWA_TRY(read_target(raster, of, target, means ? 1 : 0, GL_RGBA, GL_FLOAT, raster->row.data));
     const float *from = raster->row.data;
     for (uint64_t i = 0; i < pixels; i++) {
-        if (to->normal) memcpy(to->normal + 3 * (first + i), from + 4 * i, 3 * sizeof *from);
-        if (to->depth) to->depth[first + i] = from[4 * i + 3];
+        if (to->normal) memcpy(to->normal + 3 * (of->first + i), from + 4 * i, 3 * sizeof *from);
+        if (to->depth) to->depth[of->first + i] = from[4 * i + 3];
     }
     return EWA_OK;
+}
+
+/// Makes the averages of the band's parts of pixels.
+static ewa_status draw_means(ewa_raster *raster, const ewa_tile_job *job, const band_pixels *of) {
+    const uint32_t maps = 1u << EWA_PICTURE_FLOATS | 1u << EWA_PICTURE_PLANES | 1u << EWA_PICTURE_COVERAGE;
+    glViewport(0, 0, (GLsizei)of->width_px, (GLsizei)of->height_px);
+    return draw_stage(raster, job, EWA_RASTER_AVERAGE, EWA_TARGET_MEANS, maps, false, false);
 }
 
 /// Makes the band's pixels and fetches them; counts those without a colour.
 static ewa_status finish_band(ewa_raster *raster, const ewa_tile_job *job, uint64_t *broken) {
     const ewa_resolve *to = &job->resolve;
-    const uint64_t first = (uint64_t)job->tiles.width_px * raster->band.first_row_px;
+    const band_pixels of = pixels_of(raster, job);
+    const bool means = raster->finer > 1;
     ewa_status status = EWA_OK;
     if (to->rgba8 || to->rgba) {
         GLuint count = 0;
@@ -346,14 +371,15 @@ static ewa_status finish_band(ewa_raster *raster, const ewa_tile_job *job, uint6
             status =
                 draw_stage(raster, job, EWA_RASTER_PICTURE, EWA_TARGET_PICTURE, COMPOSED_MAP, false, false);
     }
+    if (status == EWA_OK && means) status = draw_means(raster, job, &of);
     EWA_TRY(status);
     EWA_TRY(ewa_gl_wait(raster->device, "the picture"));
     if (to->rgba8)
-        EWA_TRY(read_target(raster, EWA_TARGET_PICTURE, 0, GL_RGBA, GL_UNSIGNED_BYTE, job,
-                            to->rgba8 + 4 * first));
+        EWA_TRY(read_target(raster, &of, EWA_TARGET_PICTURE, 0, GL_RGBA, GL_UNSIGNED_BYTE, to->rgba8 + 4 * of.first));
     if (to->rgba)
-        EWA_TRY(read_target(raster, EWA_TARGET_PICTURE, 1, GL_RGBA, GL_FLOAT, job, to->rgba + 4 * first));
-    return read_planes(raster, job);
+        EWA_TRY(read_target(raster, &of, means ? EWA_TARGET_MEANS : EWA_TARGET_PICTURE, means ? 0 : 1, GL_RGBA, GL_FLOAT,
+                            to->rgba + 4 * of.first));
+    return read_planes(raster, job, &of);
 }
 
 static ewa_status draw_band(ewa_raster *raster, const ewa_tile_job *job, uint32_t first_row_px,
@@ -429,6 +455,22 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     return EWA_OK;
 }
 
+static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
+    ewa_raster *raster = state;
+    // Bands are of whole pixels.
+    if (EWA_FIELD_PX % finer) return ewa_parts_draw(raster->context, &ewa_backend_gl_raster, state, job, finer, &raster->parts, stats);
+    const double start_s = ewa_now_s();
+    ewa_render_job fine;
+    EWA_TRY(ewa_parts_start(raster->context, job, finer, &raster->parts, &fine));
+    raster->finer = finer;
+    const ewa_status status = ewa_raster_draw(state, &fine, stats);
+    raster->finer = 1;
+    EWA_TRY(status);
+    ewa_parts_finish(raster->context, job, &fine);
+    stats->total_s = ewa_now_s() - start_s;
+    return EWA_OK;
+}
+
 static void describe(const void *state, ewa_renderer_info *info) {
     const ewa_raster *raster = state;
     snprintf(info->device, sizeof info->device, "%s", raster->device->facts.renderer);
@@ -441,4 +483,5 @@ const ewa_backend ewa_backend_gl_raster = {.name = "gl-raster",
                                            .create = ewa_raster_create,
                                            .destroy = ewa_raster_destroy,
                                            .draw = ewa_raster_draw,
-                                           .describe = describe};
+                                           .describe = describe,
+                                           .draw_parts = draw_parts};

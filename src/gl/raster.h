@@ -26,6 +26,8 @@ typedef struct ewa_raster {
     ewa_buffer row;            ///< of numbers on their way
     ewa_gl_buffer packets, view_blocks, resolve_block, material_block;
     GLuint vertices, query, environment;
+    uint32_t finer;   ///< parts of a pixel along each side that the device averages; 1: none
+    ewa_buffer parts; ///< of pixels, or their averages
 } ewa_raster;
 
 /// As ewa_backend has them.

@@ -74,7 +74,10 @@ static void bind_names(GLuint program) {
                 {"material_map", EWA_PICTURE_MATERIAL},
                 {"reflection_map", EWA_PICTURE_REFLECTION},
                 {"material_back_map", EWA_PICTURE_MATERIAL_BACK},
-                {"reflection_back_map", EWA_PICTURE_REFLECTION_BACK}};
+                {"reflection_back_map", EWA_PICTURE_REFLECTION_BACK},
+                {"floats_map", EWA_PICTURE_FLOATS},
+                {"planes_map", EWA_PICTURE_PLANES},
+                {"coverage_map", EWA_PICTURE_COVERAGE}};
     for (GLuint i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
         const GLuint index = glGetUniformBlockIndex(program, blocks[i]);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, i);
@@ -122,7 +125,8 @@ ewa_status ewa_raster_stage_program(ewa_gl *device, ewa_raster_programs *program
     static const char *const names[] = {
         [EWA_RASTER_COMPOSE] = "surface", [EWA_RASTER_PLANES] = "planes",
         [EWA_RASTER_CUT] = "cut edges",   [EWA_RASTER_PEEL] = "what lies behind",
-        [EWA_RASTER_BROKEN] = "colours",  [EWA_RASTER_PICTURE] = "picture"};
+        [EWA_RASTER_BROKEN] = "colours",  [EWA_RASTER_PICTURE] = "picture",
+        [EWA_RASTER_AVERAGE] = "averages"};
     char head[HEAD_BYTES + 256];
     const size_t at = write_head(head);
     snprintf(head + at, sizeof head - at, "#define STAGE %d\n#define WITH_CLIPS %d\n", (int)stage,

@@ -32,6 +32,7 @@ typedef enum ewa_raster_stage {
     EWA_RASTER_PEEL,    ///< where more is wanted
     EWA_RASTER_BROKEN,  ///< pixels without a colour
     EWA_RASTER_PICTURE,
+    EWA_RASTER_AVERAGE, ///< of parts of pixels
     EWA_RASTER_STAGES
 } ewa_raster_stage;
 

@@ -30,6 +30,9 @@ typedef enum ewa_raster_picture {
     EWA_PICTURE_COVERAGE, ///< R32F
     EWA_PICTURE_CODES,    ///< RGBA8
     EWA_PICTURE_FLOATS,   ///< RGBA32F: over the background
+    EWA_PICTURE_MEANS,    ///< RGBA32F: of parts of pixels, and so the next
+    EWA_PICTURE_MEAN_PLANES,
+    EWA_PICTURE_MEAN_COVERAGE,
     EWA_PICTURES
 } ewa_raster_picture;
 
@@ -45,6 +48,7 @@ typedef enum ewa_raster_target {
     EWA_TARGET_FIRST_CUT,
     EWA_TARGET_PLANES,
     EWA_TARGET_PICTURE,
+    EWA_TARGET_MEANS,
     EWA_TARGETS
 } ewa_raster_target;
 

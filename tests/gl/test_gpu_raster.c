@@ -193,6 +193,22 @@ TEST(test_options) {
     hold("near", surfels, &of);
 }
 
+/// Of pixels in parts the device averages those of divisions that bands are made of; all planes, in bands, too.
+TEST(test_parts) {
+    if (!shared.raster) skip();
+    ewa_bounds bounds;
+    OWNED(ewa_surfels_destroy) ewa_surfels *surfels = make_surfels(EWA_OBJECT_TORUS, false, &bounds);
+    static const char *const names[] = {"", "", "2x2 parts", "3x3 parts", "4x4 parts"};
+    for (uint32_t parts = 2; parts <= 4; parts++)
+        for (int floats = 0; floats < 2; floats++) {
+            view of = make_view(&bounds, EWA_PERSPECTIVE, 1.2);
+            of.floats = floats != 0;
+            of.options.supersampling = parts;
+            of.options.background[0] = of.options.background[3] = 0.5f;
+            hold(names[parts], surfels, &of);
+        }
+}
+
 TEST(test_lines) {
     if (!shared.raster) skip();
     ewa_bounds bounds;

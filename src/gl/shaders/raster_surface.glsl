@@ -10,6 +10,7 @@
 #define PEEL    3
 #define BROKEN  4
 #define PICTURE 5
+#define AVERAGE 6
 
 layout(std140) uniform ResolveBlock {
     vec4 scales;   // 1 / q0, 1 / (tau q0), tau q0, 1 / (EWA_FRONT q0)
@@ -35,11 +36,14 @@ uniform sampler2D nearest_map, color_map, normal_map, cut_map, opacity_map, colo
     composed_map, first_cut_map, material_map, reflection_map, material_back_map, reflection_back_map, environment_map;
 uniform int behind, whole;
 
-#if STAGE == PICTURE || STAGE == PLANES
 layout(location = 0) out vec4 first_out;
+#if STAGE == PICTURE || STAGE == PLANES || STAGE == AVERAGE
 layout(location = 1) out vec4 second_out;
-#else
-layout(location = 0) out vec4 first_out;
+#endif
+#if STAGE == AVERAGE
+layout(location = 2) out vec4 third_out;
+uniform sampler2D floats_map, planes_map, coverage_map;
+uniform int finer; // parts of a pixel along each side
 #endif
 
 bool has(uint flag) { return (flags.x & flag) != 0u; }
@@ -199,7 +203,23 @@ bool is_broken(vec4 v) {
 
 void main() {
     pixel = ivec2(gl_FragCoord.xy);
-#if STAGE == COMPOSE
+#if STAGE == AVERAGE
+    vec4 color_sum = vec4(0.0);
+    vec3 normal_sum = vec3(0.0);
+    float nearest = uintBitsToFloat(0x7f800000u), coverage_sum = 0.0, share = 1.0 / float(finer * finer);
+    for (int j = 0; j < finer; j++)
+        for (int i = 0; i < finer; i++) {
+            ivec2 part = pixel * finer + ivec2(i, j);
+            vec4 plane = texelFetch(planes_map, part, 0);
+            color_sum += texelFetch(floats_map, part, 0);
+            normal_sum += plane.xyz;
+            nearest = min(nearest, plane.w);
+            coverage_sum += texelFetch(coverage_map, part, 0).r;
+        }
+    first_out = color_sum * share;
+    second_out = vec4(normal_sum, nearest);
+    third_out = vec4(coverage_sum * share);
+#elif STAGE == COMPOSE
     settle();
     float alpha = alpha_of(is_cut);
     if (behind != 0 && is_cut && !has(TRANSPARENT)) alpha = alpha_behind(alpha);
