@@ -16,6 +16,7 @@ typedef struct texture_arguments {
     option_vector homography, corners, plane;
     ewa_texture_options options;
     option_color background;
+    int64_t quality; // of a JPEG; -1: not given
 } texture_arguments;
 
 #define AT(member)      offsetof(texture_arguments, member)
@@ -28,6 +29,7 @@ static const cli_option output_table[] = {
      .letter = 'o'},
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
      .aliases = "background-color", .absent = "transparent"},
+    PICTURE_QUALITY(AT(quality)),
 };
 
 static const cli_option map_table[] = {
@@ -59,6 +61,7 @@ static void set_defaults(void *data) {
     texture_arguments *arguments = data;
     view_set_defaults(&arguments->view);
     ewa_texture_options_init(&arguments->options, sizeof arguments->options);
+    arguments->quality = -1;
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -69,6 +72,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "texture: no output; say -o FILE";
     else if (arguments->options.repeat && arguments->options.method == EWA_TEXTURE_SPLAT)
         wrong = "--repeat on needs another --method than splat, which would never end";
+    else
+        wrong = picture_check_quality(arguments->output, arguments->quality);
     if (!options_fine(wrong, message)) return false;
     const char *file = strcmp(arguments->output, "-") == 0 ? NULL : arguments->output;
     return view_check(&arguments->view, false, message) && picture_parse_paths(file, NULL, &paths, message);
@@ -186,6 +191,7 @@ static int run(const void *data) {
         ewa_image_save_options_init(&save, sizeof save);
         if (!arguments->homography.count && !arguments->corners.count)
             save.world_to_camera = camera.world_to_camera;
+        if (arguments->quality >= 0) save.jpeg_quality = (uint32_t)arguments->quality;
         session.subject = arguments->output;
         status = ewa_image_save(&picture, arguments->output, &save);
         if (status != EWA_OK) session_failed(&session, status);

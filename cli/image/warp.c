@@ -23,6 +23,7 @@ typedef struct warp_arguments {
     ewa_warp_options warp;
     ewa_render_options render;
     option_color background;
+    int64_t quality; // of a JPEG; -1: not given
 } warp_arguments;
 
 #define AT(member)     offsetof(warp_arguments, member)
@@ -38,6 +39,7 @@ static const cli_option output_table[] = {
     {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
              "towards the viewer), coverage (1: covered)"},
+    PICTURE_QUALITY(AT(quality)),
     {"hole-mask", OPTION_OUTPUT, AT(hole_path), "FILE",
      .help = "a grey .png: white where less than half of a pixel is covered"},
     {"save-camera", OPTION_OUTPUT, AT(save_camera_path), "FILE", .help = "write the camera that was used"},
@@ -83,6 +85,7 @@ static void set_defaults(void *data) {
     ewa_warp_render_options_init(&arguments->render, sizeof arguments->render);
     arguments->method = EWA_WARP_HYBRID;
     arguments->background = (option_color){{0, 0, 0, 0}};
+    arguments->quality = -1;
 }
 
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
@@ -95,6 +98,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "warp: no new camera; say --camera FILE or --shift x,y,z";
     else if (arguments->warp.nearest_world >= arguments->warp.farthest_world)
         wrong = "--near has to be less than --far";
+    else
+        wrong = picture_check_quality(arguments->output, arguments->quality);
     return options_fine(wrong, message) && sources_check(&arguments->sources, message) &&
            (!arguments->hole_path ||
             output_check_suffix("hole-mask", arguments->hole_path, ".png|-", message)) &&
@@ -202,6 +207,7 @@ static int run(const void *data) {
     if (status != EWA_OK) session_failed(&session, status);
     done = done && status == EWA_OK && take(&session, arguments, &sources, warp);
     sources_free(&sources);
+    paths.jpeg_quality = arguments->quality;
     done = done && draw(&session, arguments, &paths, &target, warp);
     ewa_warp_destroy(&warp);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);

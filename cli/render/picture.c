@@ -45,6 +45,10 @@ bool picture_parse_paths(const char *color, const char *aov, picture_paths *path
     return true;
 }
 
+const char *picture_check_quality(const char *path, int64_t quality) {
+    return quality >= 0 && !path_has_suffix(path, ".jpg|.jpeg") ? "--quality is for JPEG (.jpg)" : NULL;
+}
+
 bool picture_make(cli_session *session, const picture_paths *paths, const ewa_camera *camera,
                   cli_picture *picture) {
     *picture = (cli_picture){.rgba8 = NULL};

@@ -7,6 +7,11 @@
 
 #include "cli/base/session.h"
 
+/// The row of --quality of commands that write single pictures.
+#define PICTURE_QUALITY(at)                                                                                             \
+    {"quality", OPTION_INTEGER, at, "Q", "[0, 100]", .help = "quality of a JPEG, from 0 (small) to 100 (good)",         \
+     .absent = "auto: 95"}
+
 /// Paths of what is written of a frame; NULL: not asked for.
 typedef struct picture_paths {
     /// .png, .jpg, .jpeg, .exr or .pfm; "-": PNG to standard output; NULL: the 8-bit picture is made, but not written here
@@ -19,6 +24,9 @@ typedef struct picture_paths {
 /// Fills the paths from -o, or NULL, and --aov; says in `message` what is wrong with them. `aov` may be NULL.
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]);
+
+/// What is wrong with a quality (-1: not given) for a picture of this name; NULL: nothing.
+const char *picture_check_quality(const char *path, int64_t quality);
 
 /// Memory of a frame: the planes that the paths need.
 typedef struct cli_picture {

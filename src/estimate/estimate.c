@@ -9,6 +9,7 @@
 #include "estimate/borders.h"
 #include "estimate/curvature.h"
 #include "estimate/local.h"
+#include "estimate/noise.h"
 #include "estimate/orient.h"
 #include "estimate/outliers.h"
 #include "estimate/radii.h"
@@ -407,6 +408,24 @@ static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has
     return status;
 }
 
+/// Turns normals where a depth camera's noise is larger than what they were measured from. Ellipses keep theirs: their axes
+/// lie in the planes of few neighbours.
+static ewa_status smooth_noise(ewa_cloud *cloud, const estimate_job *job) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    if (!job->normals || job->tangent_u_out || job->sight.kind == SIGHT_UPWARD) return EWA_OK;
+    noise_input input = {job->neighbours, job->place_count, &job->grid, .radius_scale = job->options->radius_scale};
+    ewa_cloud_origin(cloud, input.world_origin);
+    for (int c = 0; c < 3; c++) input.world_origin[c] = 0 - input.world_origin[c];
+    const noise_output output = {job->normals, job->strewn, job->radius_out};
+    uint64_t turned = 0;
+    EWA_TRY(ewa_noise_smooth(context, &input, &output, &turned));
+    if (turned)
+        ewa_report(context, EWA_SEVERITY_INFO,
+                   "noise of a depth camera: normals of %llu of %u places are those of larger planes",
+                   (unsigned long long)turned, job->place_count);
+    return EWA_OK;
+}
+
 /// Adds and fills the stream of normals.
 static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
     ewa_context *context = ewa_cloud_context(cloud);
@@ -458,6 +477,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
         if (sizes) complete = ewa_borders_make(context, job->place_count, &borders) == EWA_OK && complete;
         status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
     }
+    if (status == EWA_OK) status = smooth_noise(cloud, job);
     if (status == EWA_OK) {
         report_degenerate(context, job);
         if (sizes) status = finish_surfaceness(cloud, job, has_gaps);

@@ -152,11 +152,14 @@ static ewa_vec3 normal_at(const sample_job *job, uint32_t triangle, const double
         given_normal_at(surface, triangle, weight, &sum))
         return sum;
     sum = vec3_make(0, 0, 0);
-    for (int c = 0; c < 3; c++) {
-        const float *n = surface->group_normal[surface->corner_group[3 * (size_t)triangle + (size_t)c]];
-        sum = vec3_add(sum, vec3_scale(load_normal(n), weight[c]));
-    }
     const ewa_vec3 flat = load_normal(surface->normal[triangle]);
+    for (int c = 0; c < 3; c++) {
+        const float *group = surface->group_normal[surface->corner_group[3 * (size_t)triangle + (size_t)c]];
+        const ewa_vec3 n = load_normal(group);
+        // At the tip of a cone the mean lies across all of its triangles: discs of that normal would leave gaps.
+        const bool tip = !(vec3_dot(n, flat) > fmax(surface->crease_cosine, 0));
+        sum = vec3_add(sum, vec3_scale(tip ? flat : n, weight[c]));
+    }
     return vec3_normalize(&sum) && vec3_dot(sum, flat) > 0 ? sum : flat;
 }
 

@@ -72,6 +72,16 @@ TEST(test_files) {
     assert_true(scratch_same("one.png", "two.png"));
 }
 
+/// A JPEG has a quality, of 95 where nobody says; other formats have none.
+TEST(test_jpeg_quality) {
+    run_done("ewa texture rgb.png -o j.jpg --background 1,1,1 && ewa texture rgb.png -o j95.jpg --background 1,1,1 --quality 95 && "
+             "ewa texture rgb.png -o j20.jpg --background 1,1,1 --quality 20");
+    assert_true(scratch_same("j.jpg", "j95.jpg"));
+    assert_true(scratch_size("j20.jpg") > 0 && scratch_size("j20.jpg") < scratch_size("j.jpg"));
+    run_fails(2, "--quality is for JPEG", "ewa texture rgb.png -o n.png --quality 20");
+    run_fails(2, "[0, 100]", "ewa texture rgb.png -o n.jpg --quality 101");
+}
+
 TEST(test_usage) {
     run_fails(2, "texture: no output", "ewa texture rgb.png");
     run_fails(2, "an input is missing", "ewa texture -o n.png");

@@ -33,6 +33,15 @@ TEST(test_outputs) {
     run_done("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o - >piped.png");
 }
 
+/// A JPEG has a quality, of 95 where nobody says.
+TEST(test_jpeg_quality) {
+    static const char *const qualities[] = {"", "--quality 95", "--quality 20"};
+    for (int i = 0; i < 3; i++)
+        run_done("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o w%d.jpg --background 1,1,1 %s", i, qualities[i]);
+    assert_true(scratch_same("w0.jpg", "w1.jpg"));
+    assert_true(scratch_size("w2.jpg") > 0 && scratch_size("w2.jpg") < scratch_size("w0.jpg"));
+}
+
 TEST(test_said) {
     // 8-bit depths are integers; their scale is guessed aloud.
     assert_int_equal(
@@ -64,6 +73,7 @@ TEST(test_usage) {
          "--depth-is disparity"},
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --near 3 --far 2 -o a.png", "--near"},
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 -o a.bmp", "no .png"},
+        {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 -o a.png --quality 20", "--quality is for JPEG"},
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --camera-index 1 -o a.png",
          "--camera-index"},
         {"color.png --source-camera cam.json --shift 0,0,0 -o a.png", ""},

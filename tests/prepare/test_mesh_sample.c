@@ -444,4 +444,30 @@ TEST(test_thin_strip) {
     }
 }
 
+/// The tip of a cone has no normal that suits its triangles: discs there lie in these, up to the crease.
+TEST_ON(test_tip, 2) {
+    enum { SIDES = 32 };
+    double places[3 * (SIDES + 1)] = {0, 0, 1.5};
+    uint32_t triangles[3 * SIDES];
+    for (uint32_t i = 0; i < SIDES; i++) {
+        const double around = 2 * 3.141592653589793 * i / SIDES;
+        places[3 * i + 3] = 0.5 * cos(around), places[3 * i + 4] = 0.5 * sin(around);
+        triangles[3 * i] = 0, triangles[3 * i + 1] = i + 1, triangles[3 * i + 2] = (i + 1) % SIDES + 1;
+    }
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
+    shape_fill(context, SIDES + 1, places, SIDES, triangles, &mesh);
+    const ewa_mesh_sample_options options = shape_options(4000);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(check_free) double *p = shape_places(cloud);
+    const float *n = shape_stream(cloud, EWA_NORMAL);
+    double least = 1;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const double around = atan2(p[3 * i + 1], p[3 * i]);
+        least = fmin(least, 0.948683 * (cos(around) * (double)n[3 * i] + sin(around) * (double)n[3 * i + 1]) +
+                                0.316228 * (double)n[3 * i + 2]);
+    }
+    print_message("normals are up to %.1f degrees off\n", acos(least) * 180 / 3.141592653589793);
+    assert_true(least > cos(12 * 3.141592653589793 / 180));
+}
+
 int main(void) { return RUN_TESTS(NULL, NULL); }
