@@ -26,7 +26,7 @@ typedef struct noise_output {
 /// Finds planes around places in pictures of inverse depth, whose noise is alike everywhere and to which planes are planes; as
 /// large ones as the noise explains what is left. Does nothing where nobody saw all points from one side, or without noise.
 /// `*turned` gets the number of places with new normals. Workers share the places; the same bytes for any number of them.
-/// Errors: EWA_ERROR_MEMORY, EWA_ERROR_STOPPED.
+/// Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_noise_smooth(ewa_context *context, const noise_input *input, const noise_output *output, uint64_t *turned);
 
 #endif
