@@ -141,13 +141,14 @@ static bool load(void *user, const char *path, const ewa_asset_options *said, co
     return ewa_asset_load(p->context, path, &options, asset) == EWA_OK;
 }
 
-static bool place(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]) {
+static bool place(void *user, ewa_scene *scene, const char *view, bool color_bar, ewa_camera *camera, double up_world[3]) {
     (void)user;
     ewa_view_options options;
     ewa_view_info info;
     ewa_view_options_init(&options, sizeof options);
     options.width_px = camera->width_px;
     options.height_px = camera->height_px;
+    options.color_bar = color_bar;
     if (view) options.view = viewer_view_find(view);
     if (ewa_scene_place_camera(scene, &options, camera, &info) != EWA_OK) return false;
     memcpy(up_world, info.up_world, sizeof info.up_world);

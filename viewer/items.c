@@ -358,7 +358,8 @@ bool items_place(viewer *v, const char *view, bool animate) {
     ewa_camera_init(&camera);
     camera.width_px = v->camera.width_px;
     camera.height_px = v->camera.height_px;
-    if (!v->services.place(v->services.user, v->scene, view, &camera, v->up_world)) return false;
+    const bool color_bar = v->furniture.color_bar && overlay_has_color_bar(v);
+    if (!v->services.place(v->services.user, v->scene, view, color_bar, &camera, v->up_world)) return false;
     measure(v, true);
     const bool ortho = v->camera.projection == EWA_ORTHOGRAPHIC;
     if (ortho) navigate_set_ortho(&camera, true, v->pivot_world, 0);

@@ -86,8 +86,8 @@ typedef struct viewer_services {
     bool (*photos)(void *user, const char *path, const ewa_asset_options *said, const viewer_photos *photos, const viewer_news *news,
                    ewa_photos_report *report);
     /// Places a camera, whose picture's size is set, for a first look or for a named view ("front" ... "iso",
-    /// NULL: the best) at all that is visible; on the calling thread.
-    bool (*place)(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]);
+    /// NULL: the best) at all that is visible, with room for a colour bar if there is to be one; on the calling thread.
+    bool (*place)(void *user, ewa_scene *scene, const char *view, bool color_bar, ewa_camera *camera, double up_world[3]);
     /// Says a line to standard output (picks, measures) or, for messages, to standard error.
     void (*say)(void *user, bool message, const char *text);
     /// Whether the program was asked to end, by a signal. May be NULL.

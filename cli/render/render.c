@@ -190,7 +190,9 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
         return false;
     }
     const view_subject subject = {.scene = scene->scene};
-    if (!frames_make(session, &arguments->frames, &subject, &scene->frames) ||
+    frames_arguments frames = arguments->frames;
+    frames.view.color_bar = arguments->look.furniture.color_bar;
+    if (!frames_make(session, &frames, &subject, &scene->frames) ||
         !furnish_make(session, &arguments->look.furniture, &arguments->frames, &arguments->look.background, &subject,
                       &scene->furniture))
         return false;

@@ -90,6 +90,7 @@ static ewa_view_options options_of(const view_arguments *arguments, const ewa_sc
     options.azimuth_deg = arguments->azimuth_deg;
     options.elevation_deg = arguments->elevation_deg;
     options.turntable = turntable;
+    options.color_bar = arguments->color_bar;
     options.has_eye = arguments->eye.count;
     options.has_target = arguments->target.count;
     if (arguments->up.count) memcpy(options.up_world, arguments->up.values, sizeof options.up_world);

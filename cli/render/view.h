@@ -18,6 +18,7 @@ typedef struct view_arguments {
     int view;            ///< index of a named view; -1: none given
     double azimuth_deg, elevation_deg;
     option_size size;
+    bool color_bar; ///< no option of the camera: whether there will be a colour bar, which room is left for
 } view_arguments;
 
 extern const option_group view_options;

@@ -213,11 +213,12 @@ static view_arguments place_arguments(const window_services *own, const char *vi
     return arguments;
 }
 
-static bool place(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]) {
+static bool place(void *user, ewa_scene *scene, const char *view, bool color_bar, ewa_camera *camera, double up_world[3]) {
     window_services *own = user;
     cli_session *session = &own->session;
     session->reported = false;
-    const view_arguments arguments = place_arguments(own, view, camera);
+    view_arguments arguments = place_arguments(own, view, camera);
+    arguments.color_bar = color_bar;
     const view_subject subject = {.scene = scene};
     view_turn turn;
     return view_make(session, &arguments, &subject, camera, NULL) &&

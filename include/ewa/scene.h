@@ -354,6 +354,7 @@ typedef struct ewa_view_options {
     double elevation_deg;          ///< then raises it; [-180, 180]; default 0
     bool turntable;                ///< all must be in the picture in every turn about the axis; default false
     double direction_world[3];     ///< in which it looks, any length, in place of `view`; zeros (default): as `view` says
+    bool color_bar;                ///< room is left for a colour bar where all is put into the picture; default off
 } ewa_view_options;
 
 EWA_API extern const ewa_option_table ewa_view_options_table;

@@ -1776,6 +1776,7 @@ class ewa_view_options(c.Structure):
     elevation_deg: Annotated[float, c.c_double]
     turntable: Annotated[bool, c.c_bool]
     direction_world: Annotated[c.Array[c.c_double], c.c_double * 3]
+    color_bar: Annotated[bool, c.c_bool]
 
 
 @_struct

@@ -22,10 +22,11 @@ UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0), "-y": (0.0, -1.0, 0.0), "-z":
 
 def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None = None, fov: float | None = None,
                  ortho: float | None = None, eye: Any = None, target: Any = None, azimuth: float = 0,
-                 elevation: float = 0, turntable: bool = False) -> b.ewa_view_options:
+                 elevation: float = 0, turntable: bool = False, color_bar: bool = False) -> b.ewa_view_options:
     """How a camera is placed, as :meth:`Camera.frame` and :meth:`Scene.camera` are asked."""
     made = initialised(b.ewa_view_options, lib.ewa_view_options_init)
-    members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation), "turntable": turntable}
+    members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation), "turntable": turntable,
+                               "color_bar": color_bar}
     if size is not None:
         members.update(width_px=size[0], height_px=size[1])
     if fov is not None:

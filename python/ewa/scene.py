@@ -133,7 +133,7 @@ class Scene:
     def camera(self, view: str | Sequence[float] | None = None, up: str | Sequence[float] | None = None, *,
                size: Sequence[int] | None = None, fov: float | None = None, ortho: float | None = None,
                eye: Sequence[float] | None = None, target: Sequence[float] | None = None, azimuth: float = 0,
-               elevation: float = 0) -> Camera:
+               elevation: float = 0, color_bar: bool = False) -> Camera:
         """Return the camera of ``ewa render`` with the same options: that of the scene file, if there is one, where they
         say nothing but the size.
 
@@ -143,13 +143,15 @@ class Scene:
             Width and height in pixels. Default: those of the scene file's camera, else 1280 x 720.
         view, up, fov, ortho, eye, target, azimuth, elevation : optional
             As of :meth:`Camera.frame`.
+        color_bar : bool
+            Leave room for a colour bar. Default: False.
 
         Raises
         ------
         ArgumentError, NumericError
         """
         asked = view_options(view, up, size=size, fov=fov, ortho=ortho, eye=eye, target=target, azimuth=azimuth,
-                             elevation=elevation)
+                             elevation=elevation, color_bar=color_bar)
         return Camera._of(self._world.place(asked))
 
     @keywords("ewa_render_options")

@@ -113,6 +113,15 @@ class SameScene(Case):
         with self.assertRaises(ewa.ArgumentError):
             ewa.measure("angle", square)
 
+    def test_bar_room(self) -> None:
+        """The camera that leaves room for a colour bar is the program's."""
+        self.run_program("render", "bare.ply", "-o", "bar.png", "--size", "320x240", "--color-by", "z", "--color-bar", "--save-camera", "bar.json")
+        scene = ewa.Scene(self.path("bare.ply"))
+        scene.camera(size=(320, 240), color_bar=True).save(self.path("python.json"))
+        with open(self.path("bar.json"), "rb") as one, open(self.path("python.json"), "rb") as other:
+            self.assertEqual(one.read(), other.read())
+        self.assertLess(scene.camera(size=(320, 240), color_bar=True).K[0, 2], 130)
+
     def test_regions(self) -> None:
         """What is hidden in Python, in a scene file and in the window is the same, and is left out of what is written."""
         scene = ewa.Scene(self.path("torus.ply"))

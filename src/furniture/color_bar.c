@@ -19,6 +19,21 @@ static const double TICK_STEP_PT = 30;
 /// Points between the texts of ticks that stand side by side, and from such a tick to the next one, at least.
 static const double TEXT_GAP_PT = 10, ACROSS_STEP_PT = 44;
 
+/// Points that numbers beside a bar mostly take, and that are left between the bar and what is shown.
+static const double USUAL_TEXT_PT = 42, ASIDE_PT = 10;
+
+void ewa_color_bar_room(uint32_t width_px, uint32_t height_px, uint32_t room_px[2]) {
+    const ewa_canvas canvas = {NULL, width_px, height_px};
+    const double point = ewa_layout_point_px(&canvas, 0), beside = TICK_PT + BESIDE_PT + USUAL_TEXT_PT;
+    const bool tall = ewa_layout_is_tall(&canvas);
+    const double right = (EWA_MARGIN_PT + beside + BAR_WIDTH_PT + ASIDE_PT) * point;
+    const double bottom = (EWA_MARGIN_PT + EWA_TEXT_PT + TICK_PT + BESIDE_PT / 2 + BAR_WIDTH_PT + LABEL_ROW_PT + ASIDE_PT) * point;
+    const bool fits = tall ? bottom < height_px / 2.0 && width_px > 2 * BAR_MIN_PT * point
+                           : right < TEXT_PART * width_px && height_px * BAR_PART > BAR_MIN_PT * point;
+    room_px[0] = fits && !tall ? (uint32_t)ceil(right) : 0;
+    room_px[1] = fits && tall ? (uint32_t)ceil(bottom) : 0;
+}
+
 /// Fills a rectangle with a rim of a pixel or more around it, in the colour of the text.
 static void draw_framed(const ewa_layout *layout, const ewa_inks *inks, const ewa_box *box) {
     const double rim = fmax(1, floor(layout->point_px)), halo = 2 * rim;

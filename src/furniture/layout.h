@@ -54,6 +54,10 @@ enum { EWA_LAYOUT_TEXT_BYTES = 512 };
 bool ewa_layout_shorten(const char *text, double height_px, double max_px,
                         char fitting[EWA_LAYOUT_TEXT_BYTES]);
 
+/// The pixels off a picture's right, or off the bottom of a tall one, that a colour bar takes with numbers of a usual length: which they are
+/// is not known where a camera is placed. None where a picture is too small for a bar.
+void ewa_color_bar_room(uint32_t width_px, uint32_t height_px, uint32_t room_px[2]);
+
 /// Draws the colour bar, or the legend of categories, at the right of the room, or at the bottom of that of a tall picture.
 void ewa_color_bar_draw(const ewa_layout *layout);
 void ewa_legend_draw(const ewa_layout *layout);

@@ -6,6 +6,7 @@
 #include "base/options.h"
 #include "cloud/cloud.h"
 #include "framing/conventions.h"
+#include "furniture/layout.h"
 #include "homogeneous/camera.h"
 #include "scene/parts.h"
 
@@ -38,6 +39,7 @@ static const ewa_option view_rows[] = {
      .help = "all is in the picture in every turn about the axis"},
     {"direction_world", EWA_OPTION_F64, AT(direction_world), -INFINITY, INFINITY,
      EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .help = "in which it looks; zeros: as the view says"},
+    {"color_bar", EWA_OPTION_BOOL, AT(color_bar), .help = "room is left for a colour bar where all is put into the picture"},
 };
 
 const ewa_option_table ewa_view_options_table = EWA_OPTION_TABLE(ewa_view_options, view_rows);
@@ -197,6 +199,15 @@ static ewa_status aim(const placement *p, ewa_camera *camera) {
     return ewa_camera_look_at(camera, aimed_world, target_world, p->up_world);
 }
 
+/// Takes room off a picture's right and bottom, and the principal point into the middle of what is left; or adds it again.
+static void add_room(const uint32_t room_px[2], bool added, ewa_camera *camera) {
+    camera->width_px = added ? camera->width_px + room_px[0] : camera->width_px - room_px[0];
+    camera->height_px = added ? camera->height_px + room_px[1] : camera->height_px - room_px[1];
+    if (added) return;
+    camera->cx_px -= 0.5 * room_px[0];
+    camera->cy_px -= 0.5 * room_px[1];
+}
+
 /// Places a camera whose picture and projection are set.
 static ewa_status place(const placement *p, const double pivot_world[3], ewa_camera *camera) {
     const ewa_view_options *options = p->options;
@@ -212,6 +223,10 @@ static ewa_status place(const placement *p, const double pivot_world[3], ewa_cam
     if (p->of.trimmed)
         ewa_report(context, EWA_SEVERITY_NOTE,
                    "a few points lie far off and are left outside the picture; eye_world decides otherwise");
+    uint32_t room_px[2] = {0, 0};
+    if (options->color_bar && !options->has_target && !(options->ortho_height_world > 0))
+        ewa_color_bar_room(camera->width_px, camera->height_px, room_px);
+    add_room(room_px, false, camera);
     ewa_status status = EWA_OK;
     if (options->turntable) {
         ewa_framing *solid = NULL;
@@ -221,11 +236,12 @@ static ewa_status place(const placement *p, const double pivot_world[3], ewa_cam
     } else if (p->upright.from_origin && !options->has_target && !(options->fov_deg > 0) &&
                !(options->ortho_height_world > 0)) {
         static const double origin[3] = {0, 0, 0};
-        return ewa_framing_zoom(p->framing, origin, p->up_world, camera);
+        status = ewa_framing_zoom(p->framing, origin, p->up_world, camera);
     } else {
         status = ewa_framing_fit(p->framing, p->direction_world, p->up_world, camera);
         if (status == EWA_OK && options->has_target) status = aim(p, camera);
     }
+    add_room(room_px, true, camera);
     if (status == EWA_OK && options->ortho_height_world > 0)
         status = ewa_camera_set_ortho(camera, options->ortho_height_world);
     return status;

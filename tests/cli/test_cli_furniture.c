@@ -36,6 +36,36 @@ static void count_changes(const char *a, const char *b, const corner *box, size_
     }
 }
 
+/// Room is left for a colour bar where the picture shows all: the thing ends before it, at the right, or at the bottom of a tall picture, and is
+/// whole. A camera that is given looks where it did.
+TEST(test_bar_room) {
+    static const char *const sizes[] = {"320x240", "640x480", "1280x720", "240x480"};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        run_done("ewa render terrain.ply -o bar.png --size %s --color-by z --background 0,0,0,0 --color-bar --save-camera bar.json", sizes[k]);
+        run_done("ewa render terrain.ply -o there.png --size %s --color-by z --background 0,0,0,0 --camera bar.json", sizes[k]);
+        run_done("ewa render terrain.ply -o given.png --size %s --color-by z --background 0,0,0,0 --camera bar.json --color-bar", sizes[k]);
+        assert_true(scratch_same("bar.png", "given.png"));
+        OWNED(ewa_image_free) ewa_image with = load("bar.png"), without = load("there.png");
+        // Where both differ is the bar; where the other has something is the terrain.
+        uint32_t shown = 0, covered = 0, rim = 0;
+        for (uint32_t y = 0; y < with.height_px; y++)
+            for (uint32_t x = 0; x < with.width_px; x++) {
+                const size_t at = 4 * ((size_t)y * with.width_px + x);
+                const bool is_bar = memcmp(with.pixels + at, without.pixels + at, 4 * sizeof(float)) != 0;
+                const bool is_thing = without.pixels[at + 3] > 0;
+                shown += is_bar;
+                covered += is_bar && is_thing;
+                rim += is_thing && (x == 0 || y == 0 || x + 1 == with.width_px || y + 1 == with.height_px);
+            }
+        assert_true(shown > 400);
+        assert_int_equal(covered, 0);
+        assert_int_equal(rim, 0);
+    }
+    run_done("ewa render terrain.ply -o a.png --size 320x240 --color-by z --eye 0,-9,6 --target 0,0,0 --save-camera a.json && "
+             "ewa render terrain.ply -o b.png --size 320x240 --color-by z --eye 0,-9,6 --target 0,0,0 --color-bar --save-camera b.json");
+    assert_true(scratch_same("a.json", "b.json"));
+}
+
 /// Each piece changes its part of the picture and nothing else; without one, and by default, the picture is as it was.
 TEST(test_places) {
     static const struct {
@@ -44,11 +74,13 @@ TEST(test_places) {
     } cases[] = {{"--title Terrain", &upper_middle}, {"--axes", &lower_left},
                  {"--scale-bar", &lower_right},      {"--scale-bar --unit m", &lower_right},
                  {"--color-bar", &right_edge},       {"--color-bar --unit m", &right_edge}};
-    run_done("ewa render terrain.ply -o bare.png --size 640x480 --color-by z");
+    run_done("ewa render terrain.ply -o bare.png --size 640x480 --color-by z --save-camera bare.json");
     run_done("ewa volume ball.nrrd -o none.png --size 640x480");
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         size_t inside, outside;
-        run_done("ewa render terrain.ply -o a.png --size 640x480 --color-by z %s", cases[k].options);
+        // A colour bar moves the camera, but for one that is given.
+        const char *camera = strstr(cases[k].options, "color") ? "--camera bare.json" : "";
+        run_done("ewa render terrain.ply -o a.png --size 640x480 --color-by z %s %s", cases[k].options, camera);
         count_changes("bare.png", "a.png", cases[k].box, &inside, &outside);
         assert_true(inside > 100);
         assert_int_equal(outside, 0);
@@ -158,8 +190,8 @@ TEST(test_classes) {
                      0);
     assert_non_null(strstr(last_run.err, "has 4 classes, drawn in the colours of classes"));
     // The legend names them.
-    run_done("ewa render -q named.ply -o i.png --color-by scalar_Classification --view top --size 640x480");
-    run_done("ewa render -q named.ply -o j.png --color-by scalar_Classification --view top --size 640x480 "
+    run_done("ewa render -q named.ply -o i.png --color-by scalar_Classification --view top --size 640x480 --save-camera i.json");
+    run_done("ewa render -q named.ply -o j.png --color-by scalar_Classification --camera i.json --size 640x480 "
              "--color-bar");
     size_t inside, outside;
     count_changes("i.png", "j.png", &(corner){0.7, 0.2, 1, 0.8}, &inside, &outside);

@@ -129,8 +129,8 @@ static bool load(void *user, const char *path, const ewa_asset_options *said, co
 }
 
 /// Looks along y at the unit ball, or down for "top".
-static bool place(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]) {
-    (void)user, (void)scene;
+static bool place(void *user, ewa_scene *scene, const char *view, bool color_bar, ewa_camera *camera, double up_world[3]) {
+    (void)user, (void)scene, (void)color_bar;
     static const double front[3] = {0, -6, 0}, above[3] = {0, 0, 6}, middle[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     const bool top = view && strcmp(view, "top") == 0;
     memcpy(up_world, up, sizeof up);
