@@ -20,7 +20,7 @@ static const cli_option splat_table[] = {
     {"radius-scale", SURFELS(radius_scale)},
     {"point-size", RENDER(point_size_px)},
     {"close-gaps", OPTION_ON_OFF, AT(close_gaps),
-     .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
+     .help = "measure anew the radii of a file that leave gaps between the discs, and its normals where many are far off the points' own surface"},
     {"tolerance", RENDER(tolerance)},
     {"passes", RENDER(passes)},
     {"edge-aa", RENDER(edge_antialiasing)},

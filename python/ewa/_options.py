@@ -475,7 +475,7 @@ class SceneOptions(TypedDict, total=False):
 
     #: what is up; auto: as files and points say; auto|y|z|-y|-z, default auto
     up: Literal["auto", "y", "z", "-y", "-z"] | int | None
-    #: measure the radii anew from the spacing where the file's leave gaps between the discs; on|off, default on
+    #: measure anew the radii of a file that leave gaps between the discs, and its normals where many are far off the points' own surface; on|off, default on
     close_gaps: bool | None
     #: clouds stay in memory beside their surfels, for picks and changes; on|off, default on
     keep_points: bool | None
@@ -544,6 +544,8 @@ class ViewOptions(TypedDict, total=False):
     turntable: bool | None
     #: in which it looks; zeros: as the view says; (-inf, inf), default 0
     direction_world: Sequence[float] | None
+    #: room is left for a colour bar where all is put into the picture; on|off, default off
+    color_bar: bool | None
 
 
 class VolumeGenerateOptions(TypedDict, total=False):

@@ -8,6 +8,7 @@
 #include "cloud/cloud.h"
 #include "estimate/borders.h"
 #include "estimate/curvature.h"
+#include "estimate/given.h"
 #include "estimate/local.h"
 #include "estimate/noise.h"
 #include "estimate/orient.h"
@@ -34,6 +35,7 @@ static const double PI = 3.141592653589793;
 typedef struct counter {
     _Alignas(COUNTER_STRIDE) uint32_t thin;
     uint32_t degenerate;
+    given_count given;
 } counter;
 
 typedef struct estimate_job {
@@ -54,7 +56,7 @@ typedef struct estimate_job {
     border_set *borders; // NULL when no sizes are wanted
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out, *surfaceness_out, *curvature_out;
-    ewa_attribute position;
+    ewa_attribute position, given; // given: normals that are kept; no data: none are
     sight sight;          // where points were seen from, if normals are to point there
     sight_grid grid;      // whether each point stands for a cell
     counter *counters;    // per worker
@@ -126,6 +128,12 @@ static void visit(void *user, const ewa_block *block, uint32_t worker) {
     local_batch *batch = &job->batches[worker];
     job->kernels->measure(block, job->wanted, batch, &s);
     if (job->links) job->kernels->link(block, batch, &job->links[block->first_place]);
+    if (job->given.data) {
+        uint32_t count;
+        const uint32_t lane = ewa_given_lane(block);
+        const uint32_t *points = ewa_neighbours_points(job->neighbours, block->first_place + lane, &count);
+        ewa_given_look(&job->given, points[0], &s, lane, &job->counters[worker].given);
+    }
     for (uint32_t lane = 0; lane < block->lane_count; lane++)
         set_lane(job, job->wanted, block->first_place + lane, &s, lane, block->unit_world);
     if (job->wanted) job->kernels->size(job->wanted, &job->sizing, &s);
@@ -408,6 +416,16 @@ static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has
     return status;
 }
 
+/// Notes whether the normals that are kept are those of the points' surface.
+static ewa_status note_given(ewa_cloud *cloud, const estimate_job *job) {
+    given_count all = {0, 0};
+    for (uint32_t w = 0; w < ewa_context_worker_count(ewa_cloud_context(cloud)); w++) {
+        all.seen += job->counters[w].given.seen;
+        all.off += job->counters[w].given.off;
+    }
+    return ewa_given_note(cloud, &all);
+}
+
 /// Turns normals where a depth camera's noise is larger than what they were measured from. Ellipses keep theirs: their axes
 /// lie in the planes of few neighbours.
 static ewa_status smooth_noise(ewa_cloud *cloud, const estimate_job *job) {
@@ -477,6 +495,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
         if (sizes) complete = ewa_borders_make(context, job->place_count, &borders) == EWA_OK && complete;
         status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
     }
+    if (status == EWA_OK && job->given.data) status = note_given(cloud, job);
     if (status == EWA_OK) status = smooth_noise(cloud, job);
     if (status == EWA_OK) {
         report_degenerate(context, job);
@@ -515,6 +534,7 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
                             EWA_CHOOSE(ewa_context_cpu_features(ewa_cloud_context(cloud)), ewa_local_kernels),
                         .bends = normals || !has_components(cloud, EWA_CURVATURE, 1),
                         .position = *ewa_cloud_find(cloud, EWA_POSITION)};
+    if (!normals && has_components(cloud, EWA_NORMAL, 3)) job.given = *ewa_cloud_find(cloud, EWA_NORMAL);
     ewa_neighbours *neighbours = NULL;
     ewa_status status = ewa_sight_make(cloud, options, &job.sight);
     job.grid = ewa_sight_grid(cloud, &job.sight);

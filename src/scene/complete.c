@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "cloud/scanners.h"
+#include "estimate/given.h"
 #include "estimate/sharp.h"
 #include "estimate/sparse.h"
 #include "ewa/framing.h"
@@ -258,6 +259,20 @@ static ewa_status find_photographed(ewa_completed *group) {
     return EWA_OK;
 }
 
+/// Estimates one cloud; normals of a file that are not those of its points' surface, whose discs would leave gaps, are measured anew, too.
+static ewa_status estimate_cloud(const ewa_scene *scene, ewa_cloud **cloud) {
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    EWA_TRY(ewa_cloud_estimate(cloud, &options));
+    const char *percent = ewa_cloud_note(*cloud, EWA_NORMALS_OFF_NOTE, NULL);
+    if (!percent) return EWA_OK;
+    ewa_report(scene->context, EWA_SEVERITY_NOTE, "normals of %s %% of the points are over 60 degrees off the points' own surface%s", percent,
+               scene->options.close_gaps ? ": new ones are used (close_gaps = false keeps the file's)" : ", which leaves gaps");
+    if (!scene->options.close_gaps) return EWA_OK;
+    options.keep_normals = options.keep_radii = false;
+    return ewa_cloud_estimate(cloud, &options);
+}
+
 /// Estimates what the clouds of a group lack.
 static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
     ewa_estimate_options options;
@@ -267,7 +282,7 @@ static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
     ewa_status status = group->count > 1 ? merge_positions(group) : EWA_OK;
     const char *before = ewa_context_about(group->context, group->count > 1 ? NULL : group->assets[0]->name);
     if (status == EWA_OK && group->count > 1) {
-        status = ewa_cloud_estimate(&group->merged, &options);
+        status = estimate_cloud(scene, &group->merged);
         static const char *const spare[] = {EWA_POSITION, "scan", "return_number"};
         for (size_t i = 0; i < sizeof spare / sizeof spare[0]; i++) ewa_cloud_remove(group->merged, spare[i]);
     }
@@ -278,7 +293,7 @@ static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
         status = ewa_cloud_view(group->context, from, 0, count, &group->clouds[i]);
         if (status == EWA_OK)
             status = group->count > 1 ? borrow_estimated(group, first, group->clouds[i])
-                                      : ewa_cloud_estimate(&group->clouds[i], &options);
+                                      : estimate_cloud(scene, &group->clouds[i]);
         first += count;
     }
     if (status == EWA_OK) status = make_dots(scene, group);

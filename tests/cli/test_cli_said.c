@@ -158,6 +158,29 @@ TEST(test_zero_normals) {
 }
 
 /// Floats that are too coarse for where they are: a warning with both lengths.
+/// Normals of a file that are not those of its points leave gaps: new ones are taken, which is said. Right ones of either side are kept.
+TEST(test_wrong_normals) {
+    static const double tilts[] = {0, 0, 2};
+    char *text = malloc(1 << 20);
+    assert_non_null(text);
+    for (int k = 0; k < 3; k++) {
+        int length = sprintf(text, HEAD("3600") NORMAL END);
+        for (int i = 0; i < 3600; i++)
+            length += sprintf(text + length, "%d %d 0 %g 0 %d\n", i % 60, i / 60, i % 4 ? 0 : tilts[k], k == 1 ? -1 : 1);
+        scratch_text(k == 2 ? "tilted.ply" : k == 1 ? "down.ply" : "right.ply", text);
+    }
+    free(text);
+    assert_int_equal(run("ewa render right.ply -o right.png --size 120x90 && ewa render down.ply -o down.png --size 120x90"), 0);
+    assert_null(strstr(last_run.err, "normals"));
+    says("tilted.ply: normals of 2|% of the points are over 60 degrees off|--close-gaps off keeps",
+         "ewa render tilted.ply -o tilted.png --size 120x90");
+    says("which leaves gaps", "ewa render tilted.ply -o off.png --size 120x90 --close-gaps off");
+    // The picture is that of the points alone.
+    run_done("ewa convert tilted.ply -o bare.xyz && ewa convert bare.xyz -o bare.ply --columns x,y,z,-,-,- && ewa render bare.ply -o bare.png --size 120x90");
+    assert_true(scratch_same("bare.png", "tilted.png"));
+    assert_false(scratch_same("bare.png", "off.png"));
+}
+
 TEST(test_steps) {
     static const struct {
         double at, apart;
