@@ -202,6 +202,30 @@ static void set_tag(uint16_t wanted, uint32_t number) {
 }
 
 /// A directory that claims any size costs no memory and no time.
+/// Pictures one behind another without a place are a volume.
+TEST_WITHIN(test_stack, set_up, tear_down) {
+    char path[512];
+    TIFF *tiff = TIFFOpen(scratch_path("stack.tif", path), "w");
+    assert_non_null(tiff);
+    for (int page = 0; page < 3; page++) {
+        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, TIFF_COLUMNS);
+        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, TIFF_ROWS);
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 16);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+        TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, TIFF_ROWS);
+        uint16_t row[TIFF_COLUMNS];
+        for (int k = 0; k < TIFF_COLUMNS; k++) row[k] = (uint16_t)(100 + k);
+        for (uint32_t k = 0; k < TIFF_ROWS; k++) assert_int_equal(TIFFWriteScanline(tiff, row, k, 0), 1);
+        assert_int_equal(TIFFWriteDirectory(tiff), 1);
+    }
+    TIFFClose(tiff);
+    ewa_cloud *cloud = NULL;
+    messages.count = 0;
+    assert_int_equal(ewa_cloud_load(context, path, &cloud), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(messages.text, "a stack of pictures"));
+    assert_null(cloud);
+}
+
 TEST_WITHIN(test_sizes, set_up, tear_down) {
     static const uint32_t sizes[] = {0, 1, 65535, 1u << 20, 1u << 30, UINT32_MAX};
     for (int a = 0; a < 6; a++)

@@ -95,6 +95,9 @@ TEST_WITHIN(test_numbers_without_names, set_up, tear_down) {
         {"1 2 3 -1200 255 0 7\n", "position,intensity,color"},
         {"1 2 3 4 5 6 7\n", "position,intensity,color"},
         {"1 2 3 255 0 7 0.125\n", "position,color,c7"},
+        {"1 2 3 255 0 7 255\n1 2 3 9 0 7 255\n1 2 3 9 0 7 255\n", "position,color"},             // an alpha
+        {"1 2 3 40 255 255 255\n1 2 3 40 255 255 255\n1 2 3 40 255 255 255\n", "position,intensity,color"}, // white
+        {"1 2 3 255 0 7 254\n1 2 3 9 0 7 254\n1 2 3 9 0 7 254\n", "position,intensity,color"},
         {"1 2 3 255 0 7 0 0 1\n1 2 3 5 0 7 0 0.6 0.8\n", "position,color,normal"},
         {"1 2 3 0 0 1 255 0 7\n1 2 3 0 0.6 0.8 9 0 7\n", "position,normal,color"},
         {"1 2 3 4.5 0 0 1\n1 2 3 5.5 0 0.6 0.8\n", "position,intensity,normal"},

@@ -322,6 +322,10 @@ static ewa_status prepare(tiff_state *state, ewa_cloud *prototype) {
         EWA_TRY(find_mean_step(state, &mean_step));
         grid->is_degrees = ewa_height_grid_is_too_steep(grid, mean_step);
     }
+    // Smaller copies of a map follow it, too; a map knows its place.
+    if (!place.is_placed && !TIFFLastDirectory(state->tiff))
+        return ewa_fail(state->source->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: a stack of pictures, no heights: a volume, which is read of NRRD, NIfTI, MetaImage and VTK", state->source->name);
     if (!place.is_placed)
         ewa_report(state->source->context, EWA_SEVERITY_WARNING,
                    "%s: the file does not say how large its cells are: 1 is taken", state->source->name);

@@ -288,10 +288,25 @@ static bool is_color(const table *t, uint32_t first, double maximum) {
     return whole || share;
 }
 
+/// Whether seven columns are x y z r g b a: colours and an alpha that is full in every row, as CloudCompare writes them. Green or red have to
+/// differ somewhere: what is white all over has an intensity.
+static bool has_alpha(const table *t) {
+    enum { RED = 3, GREEN = 4, ALPHA = 6, LEAST_ROWS = 3 };
+    if (t->column_count != 7 || t->row_count < LEAST_ROWS || !is_color(t, RED, UINT8_MAX)) return false;
+    const double full = cell(t, 0, ALPHA);
+    bool differ = false;
+    for (uint32_t row = 0; row < t->row_count; row++) {
+        if (cell(t, row, ALPHA) != full) return false;
+        differ = differ || cell(t, row, RED) != cell(t, 0, RED) || cell(t, row, GREEN) != cell(t, 0, GREEN);
+    }
+    return differ && (full == UINT8_MAX || full == 1);
+}
+
 /// Whether the fourth column is an intensity: alone, or before normals or colours. Seven columns that could be
 /// both are x y z i r g b, the order of PTS; more are x y z r g b and others.
 static bool has_intensity(const table *t) {
     if (t->column_count == 4) return true;
+    if (has_alpha(t)) return false;
     if (t->column_count == 7) return is_normal(t, 4) || is_color(t, 4, UINT16_MAX);
     return t->column_count > 7 && is_color(t, 4, UINT16_MAX) && !is_color(t, 3, UINT8_MAX);
 }
@@ -318,7 +333,9 @@ void ewa_text_columns_from_numbers(const double *sample, uint32_t row_count, uin
             i += 3;
             continue;
         }
-        if (intensity)
+        if (i == 6 && has_alpha(&t))
+            set_column(&columns[i], EWA_COLOR, 3);
+        else if (intensity)
             set_column(&columns[i], "intensity", 0);
         else
             snprintf(columns[i].name, sizeof columns[i].name, "c%u", i + 1);
