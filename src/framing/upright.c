@@ -60,6 +60,9 @@ static const double INSIDE_SHARE = 0.3, OUTSIDE_SHARE = 0.1;
 /// So much of a body's front in one plane shows nothing of its form.
 static const double FACE_SHARE = 0.6;
 
+/// A survey whose whole front is a plane, and that is at least so deep, in widths, is a box or a room.
+static const double SURVEYED_FACE_SHARE = 0.75, ROOM_RATIO = 0.5;
+
 /// What is so many times higher than wide, without a base, lies on its side.
 static const double TALL_RATIO = 2;
 
@@ -167,11 +170,13 @@ static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_conventi
 }
 
 /// From where a body is seen: at an angle, too, if a plane is most of what its front shows, which is of one shade. Walls
-/// that were surveyed, and open sheets, are seen face on.
+/// that were surveyed, but for boxes and rooms, and open sheets are seen face on.
 static ewa_named_view body_view(const point_cloud_sample *points, int axis, ewa_up_convention convention) {
     const int depth = 3 - axis; // the front is +z with y up, -y with z up
-    const bool plane = convention != EWA_UP_Z_SURVEYED && ewa_measure_face(points, depth, axis == 1) >= FACE_SHARE &&
-                       ewa_measure_layers(points, depth) >= SHEET_SHARE;
+    const bool surveyed = convention == EWA_UP_Z_SURVEYED;
+    const double share = surveyed ? SURVEYED_FACE_SHARE : FACE_SHARE;
+    const bool plane = !(surveyed && points->extent[depth] < ROOM_RATIO * points->extent[0]) &&
+                       ewa_measure_face(points, depth, axis == 1) >= share && ewa_measure_layers(points, depth) >= SHEET_SHARE;
     return plane ? EWA_VIEW_ISO : ewa_upright_view(points->extent, axis);
 }
 

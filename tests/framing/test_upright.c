@@ -333,6 +333,15 @@ TEST(test_faces) {
         make_faced(0.5, large ? 0.018 : 0.022);
         EXPECT(EWA_UP_Y_USUAL, 1, view, "");
     }
+    // But for boxes: a front that is all one plane, with half of its width behind it.
+    for (int deep = 0; deep < 2; deep++) {
+        start();
+        for (int i = 0; i < 60000; i++) {
+            const double x = between(0, 1), z = between(0, 1), y = between(0, deep ? 0.6 : 0.4), far = deep ? 0.6 : 0.4;
+            i % 4 == 0 ? add(x, 0, z) : i % 4 == 1 ? add(x, far, z) : i % 4 == 2 ? add(0, y, z) : add(1, y, z);
+        }
+        EXPECT(EWA_UP_Z_SURVEYED, 2, deep ? EWA_VIEW_ISO : EWA_VIEW_FRONT, "");
+    }
     // From the other side it is round.
     make_faced(1, 0);
     for (size_t i = 0; i < made.count; i++) made.points[i][2] = 1 - made.points[i][2];
