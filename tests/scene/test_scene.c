@@ -111,6 +111,45 @@ TEST_ON(test_estimated_together, 0) {
     }
 }
 
+/// Scans that are estimated together keep their scanners: each point's normal looks at the one that saw it, of a file with two, too, wherever the
+/// file lies.
+TEST_ON(test_scanners_together, 2) {
+    enum { SIDE = 40, COUNT = SIDE * SIDE };
+    static const char *const notes[2] = {"0.5 0.5 -5\n0.5 0.5 5\n", "1.5 0.5 -5\n"};
+    for (int turned = 0; turned < 2; turned++) {
+        ewa_cloud *clouds[2];
+        ewa_scene *scene = make_scene(context);
+        for (int k = 0; k < 2; k++) {
+            const int tile = turned ? 1 - k : k;
+            ewa_cloud *cloud = clouds[k] = check_cloud_of(context, COUNT);
+            float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+            for (int i = 0; i < COUNT; i++)
+                xyz[3 * i] = (float)(i % SIDE) / SIDE + (float)tile, xyz[3 * i + 1] = (float)(i / SIDE) / SIDE, xyz[3 * i + 2] = 0;
+            if (tile == 0) {
+                uint8_t *scan = check_add(cloud, "scan", EWA_U8, 1);
+                for (int i = 0; i < COUNT; i++) scan[i] = i / SIDE >= SIDE / 2;
+            }
+            assert_int_equal(ewa_cloud_set_note(cloud, "scanners", notes[tile], strlen(notes[tile])), EWA_OK);
+            add_cloud(context, scene, cloud, NULL);
+        }
+        assert_int_equal(ewa_scene_commit(scene), EWA_OK);
+        OWNED(ewa_cloud_destroy) ewa_cloud *all_points = NULL;
+        assert_int_equal(ewa_scene_cloud(scene, &all_points), EWA_OK);
+        assert_int_equal(ewa_cloud_point_count(all_points), 2 * COUNT);
+        uint32_t wrong = 0;
+        for (uint64_t i = 0; i < 2 * COUNT; i++) {
+            double p[3], n[3];
+            ewa_attribute_read_f64(ewa_cloud_find(all_points, EWA_POSITION), i, 1, p);
+            ewa_attribute_read_f64(ewa_cloud_find(all_points, EWA_NORMAL), i, 1, n);
+            const bool above = p[0] < 0.999 && p[1] > 0.499;
+            wrong += above ? !(n[2] > 0.99) : !(n[2] < -0.99);
+        }
+        assert_int_equal(wrong, 0);
+        ewa_scene_destroy(&scene);
+        ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
+    }
+}
+
 /// Gaussians out of sight change none of the planes of a surface but where colours are rounded.
 TEST_ON(test_planes_among_gaussians, 0) {
     OWNED(ewa_cloud_destroy) ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
