@@ -157,10 +157,43 @@ static void sort_halves(const surface_job *job) {
             qsort(job->halves + first[v], first[v + 1] - first[v], sizeof *job->halves, compare_halves);
 }
 
-/// Decides on one edge from all half edges that lie on it; true when there are more than two.
+/// The welded vertex of a half edge's triangle that is not on the edge.
+static uint32_t third_vertex(const surface_job *job, uint32_t half) {
+    return job->weld[vertex_of(job->surface, half / 3, (half % 3 + 2) % 3)];
+}
+
+/// Pairs the four half edges of a sheet both of whose sides are there, as triangles that are turned the other way: each with that of its own
+/// side. False where they are no such ones.
+static bool pair_sides(surface_job *job, const half_edge halves[4]) {
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t from, to, mates = 0, copies = 0, mate = NONE;
+        half_vertices(job, halves[i].half, &from, &to);
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t other_from, other_to;
+            half_vertices(job, halves[k].half, &other_from, &other_to);
+            if (other_from == from) continue;
+            const bool copy = third_vertex(job, halves[k].half) == third_vertex(job, halves[i].half);
+            copies += copy;
+            mates += !copy;
+            if (!copy) mate = halves[k].half;
+        }
+        if (mates != 1 || copies != 1) return false;
+        job->mate[halves[i].half] = mate;
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        const uint32_t half = halves[i].half;
+        const double cosine = vec3_dot(normal_of(job->surface, half / 3), normal_of(job->surface, job->mate[half] / 3));
+        job->kind[half] = cosine < job->surface->crease_cosine ? EDGE_CREASE : EDGE_SMOOTH;
+    }
+    return true;
+}
+
+/// Decides on one edge from all half edges that lie on it; true when there are more than two, or four of a sheet's sides.
 static bool classify_edge(surface_job *job, const half_edge *halves, uint32_t count) {
     const mesh_surface *surface = job->surface;
     edge_kind kind = count == 1 ? EDGE_BORDER : EDGE_MANY;
+    if (count == 4 && pair_sides(job, halves)) return false;
+    for (uint32_t i = 0; i < count && count != 2; i++) job->mate[halves[i].half] = NONE;
     if (count == 2) {
         uint32_t from[2], to;
         half_vertices(job, halves[0].half, &from[0], &to);

@@ -444,6 +444,42 @@ TEST(test_thin_strip) {
     }
 }
 
+/// A sheet both of whose sides are there, as triangles that are turned the other way, is sharp at its borders only, and smooth within.
+TEST_ON(test_both_sides, 2) {
+    enum { CELLS = 12, ROW = CELLS + 1 };
+    double places[3 * ROW * ROW];
+    uint32_t triangles[12 * CELLS * CELLS], used = 0;
+    for (uint32_t i = 0; i < ROW * ROW; i++) {
+        const double x = (double)(i % ROW) / CELLS - 0.5, y = (double)(i / ROW) / CELLS - 0.5;
+        places[3 * i] = x, places[3 * i + 1] = y, places[3 * i + 2] = 0.4 * (x * x + y * y);
+    }
+    for (uint32_t side = 0; side < 2; side++)
+        for (uint32_t i = 0; i < CELLS * CELLS; i++) {
+            const uint32_t a = i / CELLS * ROW + i % CELLS, corners[6] = {a, a + 1, a + ROW + 1, a, a + ROW + 1, a + ROW};
+            for (uint32_t c = 0; c < 6; c++) triangles[used++] = corners[side ? 5 - c : c];
+        }
+    OWNED(ewa_mesh_free) ewa_mesh mesh;
+    shape_fill(context, ROW * ROW, places, 4 * CELLS * CELLS, triangles, &mesh);
+    const ewa_mesh_sample_options options = shape_options(6000);
+    OWNED(ewa_cloud_destroy) ewa_cloud *cloud = shape_sample(&mesh, &options);
+    OWNED(check_free) double *p = shape_places(cloud);
+    const float *n = shape_stream(cloud, EWA_NORMAL), *line = shape_stream(cloud, EWA_CLIP0);
+    uint64_t cut = 0, inner = 0, sides[2] = {0, 0};
+    double least = 1;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        sides[n[3 * i + 2] > 0]++;
+        if (fmax(fabs(p[3 * i]), fabs(p[3 * i + 1])) > 0.4) continue;
+        inner++;
+        cut += line[3 * i] != 0 || line[3 * i + 1] != 0;
+        const double slope[2] = {0.8 * p[3 * i], 0.8 * p[3 * i + 1]}, length = sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+        least = fmin(least, fabs((double)n[3 * i + 2] - slope[0] * (double)n[3 * i] - slope[1] * (double)n[3 * i + 1]) / length);
+    }
+    print_message("%llu of %llu cut, normals up to %.1f degrees off\n", (unsigned long long)cut, (unsigned long long)inner,
+                  acos(least) * 180 / 3.141592653589793);
+    assert_true(inner > 3000 && cut == 0);
+    assert_true(sides[0] > 2500 && sides[1] > 2500 && least > cos(1.5 * 3.141592653589793 / 180));
+}
+
 /// The tip of a cone has no normal that suits its triangles: discs there lie in these, up to the crease.
 TEST_ON(test_tip, 2) {
     enum { SIDES = 32 };
