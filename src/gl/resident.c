@@ -91,11 +91,34 @@ static void drop_unused(ewa_gl *device, ewa_gl_residents *residents, uint64_t us
     }
 }
 
+/// Packets that were last used in that frame or later, but not in the last one.
+static uint64_t count_unused(const ewa_gl_residents *residents, uint64_t used_min) {
+    const ewa_gl_resident *items = residents->items.data;
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < residents->count; i++) {
+        const ewa_gl_piece *pieces = items[i].pieces.data;
+        for (uint32_t k = 0; k < items[i].piece_count && items[i].used >= used_min && items[i].used < residents->frame; k++)
+            count += pieces[k].count;
+    }
+    return count;
+}
+
+/// Drops what was not used for longest, until as many packets are left beside those of the last frame.
+static void drop_oldest(ewa_gl *device, ewa_gl_residents *residents, uint64_t kept) {
+    if (residents->packet_count <= kept || count_unused(residents, 0) <= kept) return;
+    uint64_t low = 0, high = residents->frame; // too many since `low`, not since `high`
+    while (high - low > 1) {
+        const uint64_t middle = low + (high - low) / 2;
+        *(count_unused(residents, middle) > kept ? &low : &high) = middle;
+    }
+    drop_unused(device, residents, high);
+}
+
 void ewa_gl_residents_start(ewa_gl *device, ewa_gl_residents *residents) {
     enum { MUCH = 4 };
     const uint64_t kept_bytes = residents->kept_bytes ? residents->kept_bytes : KEPT_BYTES;
     const uint64_t kept = kept_bytes / sizeof(ewa_packet);
-    if (residents->packet_count > kept) drop_unused(device, residents, residents->frame);
+    drop_oldest(device, residents, kept);
     // Few packets that hold much memory are copied anew.
     if (residents->capacity > kept && MUCH * residents->packet_count < residents->capacity)
         drop_unused(device, residents, UINT64_MAX);

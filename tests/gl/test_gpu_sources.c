@@ -102,6 +102,36 @@ TEST(test_coming_and_going) {
     free_sources(SOURCES);
 }
 
+/// What the last frame did not use is kept up to a bound; the longest unused goes first.
+TEST(test_kept) {
+    enum { SETS = 3, OF_EACH = 160, SOURCES = 60, SET_BYTES = SOURCES / SETS * OF_EACH / 16 * 512 };
+    static const struct {
+        int kept;
+        const char *sets; // as they are drawn
+        int sent;
+    } runs[] = {{1, "01010101", 2}, {1, "012012012", 9}, {1, "012121212", 3}, {2, "012012012", 3}};
+    OWNED(ewa_context_destroy) ewa_context *context = check_context(2, NULL);
+    make_sources(context, SOURCES, OF_EACH);
+    uint64_t sets[SETS] = {0};
+    for (int i = 0; i < 64; i++) sets[i % SETS] |= (uint64_t)1 << i;
+    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+        char tuning[64];
+        snprintf(tuning, sizeof tuning, "kept=%d", runs[i].kept * (SET_BYTES + SET_BYTES / 4));
+        assert_int_equal(setenv("EWA_GL_TUNING", tuning, 1), 0);
+        OWNED(ewa_renderer_destroy) ewa_renderer *gpu = NULL;
+        assert_int_equal(ewa_renderer_create_on(context, EWA_BACKEND_GL, &gpu), EWA_OK);
+        assert_int_equal(unsetenv("EWA_GL_TUNING"), 0);
+        int sent = 0;
+        for (const char *set = runs[i].sets; *set; set++) {
+            draw(gpu, SOURCES, sets[*set - '0'], by_gpu);
+            sent += info_of(gpu).upload_bytes > SET_BYTES;
+        }
+        print_message("%s, %d kept: %d sent\n", runs[i].sets, runs[i].kept, sent);
+        assert_int_equal(sent, runs[i].sent);
+    }
+    free_sources(SOURCES);
+}
+
 /// An octree of a ground in the test's folder.
 static ewa_lod *open_ground(ewa_context *context, uint64_t points) {
     static const char *const names[] = {"ground.ply"}, file[] = "ground.copc.laz";
