@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { THREADS = 64, READBACK_HEAD = 64 };
+enum { THREADS = 64, READBACK_HEAD = 64, MAX_ROUNDS = 1 << 14 };
 
 /// The numbers of a band.
 typedef struct band {
@@ -430,6 +430,9 @@ static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome
     uint32_t round = 0, end = gl->marks.rounds ? gl->marks.rounds : 1;
     for (; unfinished && !*again; round = end, end *= 2) {
         static const uint32_t none = 0;
+        if (round > MAX_ROUNDS)
+            return ewa_fail(gl->context, EWA_ERROR_LIMIT, "OpenGL: more splats lie behind the edges of a tile than %u rounds of %u units go over",
+                            round, gl->edge_units);
         if (round) ewa_gl_buffer_write(gl->device, &gl->buffers[EWA_GL_COUNTS], offsetof(ewa_gl_tally, unfinished_count), &none, sizeof none);
         if (b->job->layers > 1) EWA_TRY(go_behind_edges(gl, b, round, end));
         EWA_TRY(draw_picture(gl, b));

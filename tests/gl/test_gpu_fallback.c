@@ -277,6 +277,24 @@ static void test_loops_that_end(void **state) {
     gpu_scene_free(&dense);
 }
 
+/// Rounds behind edges end somewhere: of so many splats in a tile that no number of them is enough the frame is refused.
+static void test_rounds_end(void **state) {
+    enum { DENSE = 20000, ONE_TILE_PX = 8 };
+    gpu_scene dense;
+    gpu_scene_make(&dense, DENSE, ONE_TILE_PX, ONE_TILE_PX);
+    dense.options.supersampling = 1;
+    tune("unit=1 edge_units=1");
+    OWNED(ewa_renderer_destroy) ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(dense.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    assert_int_equal(gpu_scene_draw(&dense, renderer, rgba8), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(dense.log.text, "rounds of 1 units"));
+    dense.options.edge_layers = 1; // and what it has left in buffers shows in no other
+    assert_int_equal(gpu_scene_draw(&dense, renderer, rgba8), EWA_OK);
+    assert_true(gpu_scene_same(&dense, rgba8));
+    ewa_renderer_destroy(&renderer);
+    gpu_scene_free(&dense);
+}
+
 int main(void) {
     const struct CMUnitTest always[] = {
         cmocka_unit_test(test_no_device),
@@ -287,6 +305,7 @@ int main(void) {
         cmocka_unit_test(test_means_of_two),
         cmocka_unit_test(test_device_goes),           cmocka_unit_test(test_little_memory),
         cmocka_unit_test(test_small_limits),          cmocka_unit_test(test_loops_that_end),
+        cmocka_unit_test(test_rounds_end),
     };
     const int failed = cmocka_run_group_tests(always, enter, leave);
     if (failed || !gpu_there()) return failed;
