@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE]]]]]. The file is seen
-// from +x, with y down; copies stand side by side and in rows, with harmonics of degree 3.
+// Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE [gl]]]]]]. The file is seen
+// from +x, with y down; copies stand side by side and in rows, with harmonics of degree 3. "gl": by the graphics processor.
 #include "ewa/ewa.h"
+#include "gl/backends.h"
 #include "measure/measure.h"
 
 #include <stdio.h>
@@ -40,7 +41,7 @@ static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies, uint32_
 int main(int argc, char **argv) {
     const uint32_t copies = argc > 2 ? (uint32_t)atoi(argv[2]) : 1;
     ewa_gaussians set;
-    if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE]]]]]\n"), 2;
+    if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE [gl]]]]]]\n"), 2;
     ewa_context *context = make_context(argc > 5 ? (uint32_t)atoi(argv[5]) : 0);
     check(ewa_gaussians_load(context, argv[1], &set, NULL));
     if (copies > 1) {
@@ -55,6 +56,10 @@ int main(int argc, char **argv) {
     check(ewa_splats_create(&set, false, &splats));
     printf("resident in %.2f s\n", now_s() - begin_s);
     check(ewa_gaussian_renderer_create(context, &renderer));
+    const bool by_device = argc > 8;
+    ewa_renderer *surfaces;
+    check(ewa_renderer_create_on(context, by_device ? EWA_BACKEND_GL : EWA_BACKEND_CPU, &surfaces));
+    check(ewa_gl_gaussians_attach(context, surfaces, renderer));
     ewa_splats_describe(splats, &info);
     ewa_camera camera;
     ewa_camera_init(&camera);
@@ -69,7 +74,7 @@ int main(int argc, char **argv) {
     printf("%u Gaussians of degree %u, %.1f bytes each, %u x %u, %u threads\n", info.splat_count,
            info.sh_degree, (double)info.resident_bytes / info.splat_count, camera.width_px, camera.height_px,
            ewa_context_worker_count(context));
-    for (int n = 0; n < 4; n++) {
+    for (int n = 0; n < 4; n += by_device ? 2 : 1) { // the device has no rays
         WITH_DEFAULTS(ewa_gaussian_options, options);
         options.merge_px = argc > 6 ? atof(argv[6]) : 0;
         options.projection = (ewa_gaussian_projection)(n / 2);
@@ -81,16 +86,17 @@ int main(int argc, char **argv) {
             if (i >= 0) times[i] = stats.total_s;
         }
         qsort(times, ROUNDS, sizeof *times, compare_doubles);
-        printf("%s by %s: median %.1f ms, least %.1f ms; %llu visible, %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
+        printf("%s by %s: median %.1f ms, least %.1f ms; %llu visible, %llu in tiles, %llu in blocks, %llu sorted; %s ms: "
                "project %.1f, "
                "bin %.1f, draw %.1f\n",
                n / 2 ? "exact  " : "trained", n % 2 ? "rays   " : "centres", 1e3 * times[ROUNDS / 2], 1e3 * times[0],
                (unsigned long long)stats.visible_count, (unsigned long long)stats.tile_count, (unsigned long long)stats.block_count,
-               (unsigned long long)stats.sorted_count, 1e3 * stats.project_s, 1e3 * stats.bin_s,
+               (unsigned long long)stats.sorted_count, by_device ? "device" : "thread", 1e3 * stats.project_s, 1e3 * stats.bin_s,
                1e3 * stats.draw_s);
     }
     free(rgba8);
     ewa_gaussian_renderer_destroy(&renderer);
+    ewa_renderer_destroy(&surfaces);
     ewa_splats_destroy(&splats);
     ewa_gaussians_free(&set);
     ewa_context_destroy(&context);

@@ -58,6 +58,13 @@ compile() {
 compute() {
     name=$1 defines=$2
     shift 2
+    kernel "$name" "$defines" wide band "$@"
+}
+
+# kernel NAME DEFINES PIECE...: any.
+kernel() {
+    name=$1 defines=$2
+    shift 2
     {
         echo "#version $version core"
         [ $version = 430 ] || echo "#extension GL_ARB_shader_ballot : require"
@@ -67,11 +74,11 @@ compute() {
             echo "#define ${define%=*} ${define#*=}"
         done
         value=1
-        for constant in $(sed -n 's/^ *{"\([A-Z_0-9]*\)", .*}.*/\1/p' "$room/variant.c"); do
+        for constant in $(sed -n 's/^ *{"\([A-Z_0-9]*\)", .*}.*/\1/p' "$room/variant.c" "$room/gaussian_programs.c"); do
             value=$((value + 1))
             echo "#define $constant $value.5"
         done
-        for piece in wide band "$@"; do sed "$edit" "$room/shaders/$piece.glsl"; done
+        for piece in "$@"; do sed "$edit" "$room/shaders/$piece.glsl"; done
     } >"$work/program.comp"
     count comp "$name"
 }
@@ -145,4 +152,19 @@ for arithmetic in native emulated; do
     compute "picture, $arithmetic" "$own PASS=5" sums codes surface
     compute "eye-dome lighting, $arithmetic" "$own PASS=6" codes eye_dome
     compute "averages, $arithmetic" "$own PASS=7" average
+    # Gaussians; what a splat of a list takes without marks, and without pixels; a row of its marks.
+    for detail in bare deep; do
+        splat="$own DEEP=$([ $detail = deep ] && echo 1 || echo 0) DOTS=0 STAGE=0"
+        kernel "Gaussians, $detail, $arithmetic" "$splat" wide scan gaussian_frame gaussian_project
+        kernel "compositing, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
+        edit='s/while (bits != 0u \&\& open)/while (false)/'
+        kernel "compositing without looks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
+        edit="$edit; s/^ *mark(thread.*//"
+        kernel "and without marks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
+        edit=
+    done
+done
+for stage in 0 1 2; do kernel "sort, stage $stage" "STAGE=$stage" scan sort; done
+for stage in 0 1 2 3; do
+    kernel "lists of Gaussians, stage $stage" "FUSED=1 DIVIDES=1 ROOTS=1 DEEP=0 DOTS=0 STAGE=$stage" wide scan gaussian_frame gaussian_list
 done

@@ -20,6 +20,8 @@ void backend_write(json_writer *json, const ewa_renderer_info *info) {
     if (*info->device) json_text(json, "device", info->device);
     if (*info->device) json_text(json, "device_class", ewa_gpu_class_name(info->device_class));
     if (*info->remark) json_text(json, "backend_remark", info->remark);
+    if (*info->mixture) json_text(json, "mixture_backend", info->mixture);
+    if (*info->mixture_remark) json_text(json, "mixture_remark", info->mixture_remark);
     if (!info->dispatch_count) return;
     json_count(json, "device_waits", info->wait_count);
     json_count(json, "device_readbacks", info->readback_count);

@@ -283,7 +283,7 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
                       save_scene(session, arguments, scene) &&
                       (!saves_camera || frames_save(session, arguments->save_camera_path, frames, many));
     report->renderer.struct_size = sizeof report->renderer;
-    if (done) ewa_renderer_describe(ewa_scene_renderer_surfaces(painting.renderer), &report->renderer);
+    if (done) ewa_scene_renderer_describe(painting.renderer, &report->renderer);
     ewa_scene_renderer_destroy(&painting.renderer);
     return done;
 }

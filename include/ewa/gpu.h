@@ -21,7 +21,8 @@ typedef enum ewa_backend_kind {
 
 /// Makes a renderer with a back end; ewa_renderer_create() makes one for the CPU. Every call of ewa/render.h takes it. Frames
 /// of EWA_BACKEND_GL and EWA_BACKEND_GL_RASTER fail where the device cannot draw them, those of EWA_BACKEND_AUTO
-/// are then drawn by the CPU, and a warning says why. The caller destroys it. Errors: EWA_ERROR_ARGUMENT,
+/// are then drawn by the CPU, and a warning says why. Gaussians and volumes of a scene that the device does not draw are always
+/// drawn by the CPU (ewa_scene_renderer_describe()). The caller destroys it. Errors: EWA_ERROR_ARGUMENT,
 /// EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED (no such device; a library without OpenGL; not for EWA_BACKEND_AUTO).
 EWA_API ewa_status ewa_renderer_create_on(ewa_context *context, ewa_backend_kind kind,
                                           ewa_renderer **renderer);
@@ -75,6 +76,10 @@ typedef struct ewa_renderer_info {
     uint32_t wait_count, readback_count, dispatch_count;
     uint64_t upload_bytes;
     uint64_t readback_bytes; ///< that were read from it
+    /// Of ewa_scene_renderer_describe(): what drew the Gaussians and volumes of the last picture, "cpu" or "gl", else "". Where it was the
+    /// device and there were no surfaces, the counts above are theirs.
+    char mixture[16];
+    char mixture_remark[160]; ///< of EWA_BACKEND_GL and EWA_BACKEND_AUTO: why; else ""
 } ewa_renderer_info;
 
 /// Describes a renderer. Errors: EWA_ERROR_ARGUMENT (struct_size).

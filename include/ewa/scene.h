@@ -403,6 +403,10 @@ EWA_API void ewa_scene_renderer_destroy(ewa_scene_renderer **renderer);
 /// Returns the renderer of surfaces within, borrowed.
 EWA_API ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer);
 
+/// Describes what draws the pictures of a scene: ewa_renderer_describe() of its surfaces, and what drew Gaussians and volumes.
+/// Errors: EWA_ERROR_ARGUMENT (struct_size).
+EWA_API ewa_status ewa_scene_renderer_describe(const ewa_scene_renderer *renderer, ewa_renderer_info *info);
+
 /// What a frame took.
 typedef struct ewa_scene_stats {
     ewa_render_stats render;   ///< surfaces, and what of Gaussians and volumes is counted alike: splats, culled, drawn

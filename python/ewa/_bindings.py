@@ -913,6 +913,8 @@ class ewa_renderer_info(c.Structure):
     dispatch_count: Annotated[int, c.c_uint32]
     upload_bytes: Annotated[int, c.c_uint64]
     readback_bytes: Annotated[int, c.c_uint64]
+    mixture: Annotated[bytes, c.c_char * 16]
+    mixture_remark: Annotated[bytes, c.c_char * 160]
 
 
 @_struct
@@ -2255,6 +2257,7 @@ class Functions:
         self.ewa_scene_reader_read: Callable[..., int] = bind("ewa_scene_reader_read", c.c_int, c.c_void_p)
         self.ewa_scene_remove: Callable[..., int] = bind("ewa_scene_remove", c.c_int, c.c_void_p, c.c_uint32)
         self.ewa_scene_renderer_create: Callable[..., int] = bind("ewa_scene_renderer_create", c.c_int, c.c_void_p, c.c_int, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_scene_renderer_describe: Callable[..., int] = bind("ewa_scene_renderer_describe", c.c_int, c.c_void_p, c.POINTER(ewa_renderer_info))
         self.ewa_scene_renderer_destroy: Callable[..., None] = bind("ewa_scene_renderer_destroy", None, c.c_void_p)
         self.ewa_scene_renderer_surfaces: Callable[..., int | None] = bind("ewa_scene_renderer_surfaces", c.c_void_p, c.c_void_p)
         self.ewa_scene_reuse: Callable[..., None] = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)

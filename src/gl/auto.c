@@ -5,18 +5,14 @@
 // the others. They draw the same bytes, so that nobody sees which it was. Whatever the device fails to draw,
 // the processor draws.
 #include "base/context.h"
-#include "base/format.h"
 #include "gl/backends.h"
+#include "gl/choice.h"
 #include "gl/compute.h"
 #include "gl/tuning.h"
 #include "surface/supersampling.h"
 
 #include <stdio.h>
 #include <string.h>
-
-/// Frames of a scene until both are measured. The first is the processor's, so that a single picture waits for no device; the
-/// next gives the device its surfels and programs; then one for each counts.
-enum { FIRST, WARM_UP, MEASURE_CPU, MEASURE_GL, DECIDED };
 
 /// What decides how long frames take.
 typedef struct scene_kind {
@@ -25,12 +21,10 @@ typedef struct scene_kind {
     bool lit, antialiased;
 } scene_kind;
 
-/// What was measured of a kind of frame, and what follows from it.
+/// A kind of frame, and what was measured of it.
 typedef struct choice {
     scene_kind kind;
-    int step;
-    double cpu_s, gl_s;
-    bool by_gl; ///< the faster is
+    ewa_gl_choice of;
 } choice;
 
 typedef struct auto_state {
@@ -59,7 +53,7 @@ static ewa_status create(ewa_context *context, void **state) {
 static void drop_gl(auto_state *both) {
     if (both->gl) ewa_backend_gl.destroy(both->context, both->gl);
     both->gl = NULL;
-    for (int i = 0; i < 2; i++) both->choices[i].by_gl = false;
+    for (int i = 0; i < 2; i++) both->choices[i].of.by_gl = false;
 }
 
 static void destroy(ewa_context *context, void *state) {
@@ -105,12 +99,9 @@ static scene_kind kind_of(const ewa_render_job *job, uint32_t finer) {
     return kind;
 }
 
-/// Whether one is more than twice the other.
-static bool far_apart(uint64_t a, uint64_t b) { return a / 2 > b || b / 2 > a; }
-
 /// Whether what was measured says nothing of this frame.
 static bool is_other(const scene_kind *a, const scene_kind *b) {
-    return far_apart(a->splat_count, b->splat_count) || far_apart(a->pixel_count, b->pixel_count) ||
+    return ewa_gl_far_apart(a->splat_count, b->splat_count) || ewa_gl_far_apart(a->pixel_count, b->pixel_count) ||
            a->passes != b->passes || a->layers != b->layers || a->edge_layers != b->edge_layers ||
            a->planes != b->planes || a->lit != b->lit || a->antialiased != b->antialiased;
 }
@@ -134,20 +125,9 @@ static bool draw_by_gl(auto_state *both, choice *now, const ewa_render_job *job,
     ewa_report(both->context, EWA_SEVERITY_WARNING, "renderer: %s; the CPU draws %s", both->remark,
                fits_not ? "this scene" : "from here on");
     if (!fits_not) drop_gl(both);
-    now->step = DECIDED;
-    now->by_gl = false;
+    ewa_gl_choice_leave(&now->of);
     *status = EWA_OK;
     return false;
-}
-
-/// Notes what a frame took, and decides after the last.
-static void learn(auto_state *both, choice *now, double took_s) {
-    if (now->step == DECIDED) return;
-    *(both->drew_by_gl ? &now->gl_s : &now->cpu_s) = took_s;
-    if (++now->step != DECIDED) return;
-    now->by_gl = now->gl_s < now->cpu_s || ewa_gl_tuning_is("auto", "gl");
-    ewa_format(both->remark, sizeof both->remark, "frames took %.3g ms by the CPU, %.3g ms by the device", 1e3 * now->cpu_s,
-               1e3 * now->gl_s);
 }
 
 static ewa_status draw_by_cpu(auto_state *both, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
@@ -161,22 +141,29 @@ static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t fi
     const double start_s = ewa_now_s();
     const scene_kind kind = kind_of(job, finer);
     choice *now = &both->choices[finer > job->parts.count];
-    if (is_other(&kind, &now->kind)) *now = (choice){.kind = kind, .step = both->tried && !both->gl ? DECIDED : FIRST};
-    if (now->step == WARM_UP && !both->tried) open_gl(both);
-    if (!both->gl && now->step > FIRST) now->step = DECIDED;
-    const bool wanted = now->step == WARM_UP || now->step == MEASURE_GL || now->by_gl;
-    both->drew_by_gl = wanted && both->gl && !needs_one(job);
+    if (is_other(&kind, &now->kind)) *now = (choice){.kind = kind, .of.step = both->tried && !both->gl ? EWA_GL_DECIDED : EWA_GL_FIRST};
+    if (now->of.step == EWA_GL_WARM_UP && !both->tried) open_gl(both);
+    if (!both->gl && now->of.step > EWA_GL_FIRST) now->of.step = EWA_GL_DECIDED;
+    both->drew_by_gl = ewa_gl_choice_takes_gl(&now->of) && both->gl && !needs_one(job);
     ewa_status status = EWA_OK;
     if (!both->drew_by_gl || !draw_by_gl(both, now, job, finer, stats, &status)) {
         both->drew_by_gl = false;
         status = draw_by_cpu(both, job, finer, stats);
     }
-    if (status == EWA_OK && !needs_one(job)) learn(both, now, ewa_now_s() - start_s);
+    if (status == EWA_OK && !needs_one(job))
+        ewa_gl_choice_learn(&now->of, both->drew_by_gl, ewa_now_s() - start_s, both->remark, sizeof both->remark);
     return status;
 }
 
 static ewa_status draw(void *state, const ewa_render_job *job, ewa_render_stats *stats) {
     return draw_parts(state, job, 1, stats);
+}
+
+ewa_gl_compute *ewa_gl_auto_device(void *state, const char **remark) {
+    auto_state *both = state;
+    if (!both->tried) open_gl(both);
+    *remark = both->remark;
+    return both->gl;
 }
 
 static void describe(const void *state, ewa_renderer_info *info) {

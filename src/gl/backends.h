@@ -5,6 +5,7 @@
 #ifndef EWA_SRC_GL_BACKENDS_H
 #define EWA_SRC_GL_BACKENDS_H
 
+#include "ewa/gaussian_render.h"
 #include "ewa/gpu.h"
 #include "surface/backend.h"
 
@@ -16,6 +17,10 @@ extern const ewa_backend ewa_backend_gl_raster;
 
 /// The processor, and compute programs where they are faster.
 extern const ewa_backend ewa_backend_auto;
+
+/// Lets the device of a renderer of surfaces, which is destroyed later, draw Gaussians where it can; that of EWA_BACKEND_AUTO by the
+/// same rule. Of other renderers nothing happens. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_gl_gaussians_attach(ewa_context *context, ewa_renderer *surfaces, ewa_gaussian_renderer *gaussians);
 
 /// Sets what the device is, of an info of zeros but for the size. Errors: those of ewa_gpu_describe().
 ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info);

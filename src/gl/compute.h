@@ -106,6 +106,10 @@ ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict);
 /// EWA_ERROR_UNSUPPORTED, EWA_CANCELLED.
 ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_rows rows, ewa_gl_outcome *outcome);
 
+/// The device of a state of ewa_backend_auto, which is opened where it is not yet; NULL: it draws by the processor alone, and
+/// `*remark` says why.
+ewa_gl_compute *ewa_gl_auto_device(void *state, const char **remark);
+
 /// As ewa_backend has them.
 ewa_status ewa_gl_compute_create(ewa_context *context, void **state);
 void ewa_gl_compute_destroy(ewa_context *context, void *state);

@@ -41,3 +41,8 @@ ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     (void)info;
     return refuse(context);
 }
+
+ewa_status ewa_gl_gaussians_attach(ewa_context *context, ewa_renderer *surfaces, ewa_gaussian_renderer *gaussians) {
+    (void)context, (void)surfaces, (void)gaussians;
+    return EWA_OK;
+}

@@ -51,3 +51,11 @@ ewa_status ewa_gl_program_make(ewa_gl *device, const char *name, const ewa_gl_st
     }
     return status;
 }
+
+void ewa_gl_program_run(ewa_gl *device, uint64_t group_count) {
+    const uint64_t most = device->facts.group_count, columns = group_count < most ? group_count : most;
+    if (!group_count) return;
+    glDispatchCompute((GLuint)columns, (GLuint)((group_count + columns - 1) / columns), 1);
+    device->counts.dispatches++;
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}

@@ -19,4 +19,7 @@ typedef struct ewa_gl_stage {
 ewa_status ewa_gl_program_make(ewa_gl *device, const char *name, const ewa_gl_stage *stages,
                                uint32_t stage_count, GLuint *program);
 
+/// Runs the program in use in so many groups, which it numbers through. What follows may read all that it wrote.
+void ewa_gl_program_run(ewa_gl *device, uint64_t group_count);
+
 #endif

@@ -113,13 +113,14 @@ static const char *evaluate_own(trial_memory *memory, ewa_gl_arithmetic *own, bo
         float *wanted = memory->wanted[i];
         wanted[0] = fmaf(v->a, v->b, v->c), wanted[1] = v->n / v->m, wanted[2] = sqrtf(v->x);
         wanted[3] = v->a * v->b + v->c, wanted[4] = (float)product, wanted[7] = v->x;
+        wanted[9] = (float)((double)v->a * ((double)v->b + (double)v->n * 0x1p-30));
         doubles &= agree_double(&memory->results[i][5], sum);
         const float small = v->s * 0x1p-126f;
         *subnormals &= memcmp(&memory->results[i][8], &small, sizeof small) == 0;
     }
     own->fused = all_agree(memory, 0), own->divides = all_agree(memory, 1), own->roots = all_agree(memory, 2);
     if (!all_agree(memory, 3)) return "sum of a product"; // made one operation, although it is `precise`
-    return doubles && all_agree(memory, 4) && all_agree(memory, 7) ? NULL : "double precision";
+    return doubles && all_agree(memory, 4) && all_agree(memory, 7) && all_agree(memory, 9) ? NULL : "double precision";
 }
 
 /// Numbers `member` of sixteen inputs.

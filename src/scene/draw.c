@@ -5,13 +5,16 @@
 #include "scene/draw.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "gl/backends.h"
 #include "scene/octree.h"
 #include "scene/streamed.h"
 #include "surface/eye_dome.h"
 #include "surface/render.h"
 #include "surface/packets.h"
+#include "volume/gaussian_backend.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 ewa_status ewa_scene_renderer_create(ewa_context *context, ewa_backend_kind backend,
@@ -55,8 +58,8 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     if (!renderer) return;
     *given = NULL;
     ewa_context *context = renderer->context;
+    ewa_gaussian_renderer_destroy(&renderer->gaussians); // before the device of the surfaces
     ewa_renderer_destroy(&renderer->surfaces);
-    ewa_gaussian_renderer_destroy(&renderer->gaussians);
     for (uint32_t i = 0; i < EWA_MAX_MIXED_VOLUMES; i++) ewa_volume_renderer_destroy(&renderer->volumes[i]);
     free_planes(renderer);
     ewa_scene_renderer_free_lists(renderer);
@@ -66,6 +69,22 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
 }
 
 ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer) { return renderer->surfaces; }
+
+ewa_status ewa_scene_renderer_describe(const ewa_scene_renderer *renderer, ewa_renderer_info *info) {
+    if (!renderer || !info) return EWA_ERROR_ARGUMENT;
+    ewa_renderer_info all = {.struct_size = sizeof all};
+    EWA_TRY(ewa_renderer_describe(renderer->surfaces, info)); // which looks at its size
+    EWA_TRY(ewa_renderer_describe(renderer->surfaces, &all));
+    const char *remark = "";
+    bool by_device = false;
+    if (renderer->drew_gaussians) by_device = ewa_gaussian_renderer_describe(renderer->gaussians, &all, &remark);
+    if (renderer->drew_gaussians || renderer->drew_volume)
+        snprintf(all.mixture, sizeof all.mixture, "%s", by_device ? ewa_backend_gl.name : ewa_backend_cpu.name);
+    snprintf(all.mixture_remark, sizeof all.mixture_remark, "%s", remark);
+    all.struct_size = info->struct_size;
+    memcpy(info, &all, info->struct_size);
+    return EWA_OK;
+}
 
 /// Says how the visible octrees are drawn, which are listed.
 static ewa_status list_appearances(const ewa_scene *scene, const ewa_lod_options *options,
@@ -243,6 +262,11 @@ static void add_volume_stats(const ewa_volume_stats *volume, ewa_scene_stats *st
         sum->point_share = (double)sum->point_count / (double)(sum->splat_count + sum->point_count);
 }
 
+static ewa_status make_gaussians(ewa_scene_renderer *renderer) {
+    EWA_TRY(ewa_gaussian_renderer_create(renderer->context, &renderer->gaussians));
+    return ewa_gl_gaussians_attach(renderer->context, renderer->surfaces, renderer->gaussians);
+}
+
 /// Draws what lets light through, among surfaces where there are some.
 static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
                                const ewa_camera *camera, const ewa_scene_options *options,
@@ -260,14 +284,16 @@ static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_sho
     }
     EWA_TRY(status);
     if (shown->volume_count == 1 && !shown->splats_count && !among->surface_depth) {
+        renderer->drew_volume = true;
         EWA_TRY(ewa_volume_render(renderer->volumes[0], shown->voxels[0], camera, &volumes[0], frame,
                                   &took[0]));
         add_volume_stats(&took[0], stats);
         return EWA_OK;
     }
-    if (!renderer->gaussians) EWA_TRY(ewa_gaussian_renderer_create(context, &renderer->gaussians));
+    if (!renderer->gaussians) EWA_TRY(make_gaussians(renderer));
     const ewa_mixture mixture = {(const ewa_splats *const *)shown->splats, shown->splats_count,
                                  shown->volume_count, mixed};
+    renderer->drew_gaussians = true;
     ewa_gaussian_stats drawn;
     EWA_TRY(ewa_mixture_draw(renderer->gaussians, &mixture, (const ewa_splat_colors *const *)shown->splat_colors, camera, among, frame, &drawn));
     stats->render.splat_count += drawn.splat_count;
@@ -319,6 +345,7 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     const ewa_scene_options *options = given;
     EWA_TRY(ewa_scene_list_shown(scene, &given->lod, renderer, &shown));
     renderer->level = 0;
+    renderer->drew_gaussians = renderer->drew_volume = false;
     double size_px = given->render.point_size_px;
     if (size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 && !shown.lod_count)
         size_px = EWA_DOT_PX;

@@ -25,6 +25,7 @@ struct ewa_scene_renderer {
     ewa_exchange exchange; ///< swap NULL: one process
     ewa_renderer *surfaces;
     ewa_gaussian_renderer *gaussians; ///< NULL: not used yet
+    bool drew_gaussians, drew_volume; ///< of the last picture: by `gaussians`; a volume alone
     ewa_volume_renderer *volumes[EWA_MAX_MIXED_VOLUMES];
     ewa_image rgba, depth, normal, coverage; ///< of surfaces among others, of the size of the last frame
     ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting

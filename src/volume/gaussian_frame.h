@@ -22,8 +22,14 @@ typedef struct ewa_gaussian_scratch {
     double project_s, draw_s;
 } ewa_gaussian_scratch;
 
+typedef struct ewa_gaussian_backend ewa_gaussian_backend; ///< gaussian_backend.h
+
 struct ewa_gaussian_renderer {
     ewa_context *context;
+    const ewa_gaussian_backend *backend; ///< NULL: the processor draws
+    void *backend_state;
+    bool used_backend; ///< for the last frame
+    char remark[160];  ///< why not
     const ewa_gaussian_kernels *kernels;
     uint32_t worker_count;
     ewa_buffer records, keys, corners, views, parts, order, volumes;

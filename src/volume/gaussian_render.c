@@ -5,6 +5,7 @@
 // frame's stages. Reference: src/reference/gaussian.c.
 #include "volume/gaussian_frame.h"
 #include "base/allocating.h"
+#include "volume/gaussian_backend.h"
 #include "volume/gaussian_view.h"
 #include "volume/sort.h"
 #include "volume/splat_packets.h"
@@ -33,6 +34,7 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     if (!renderer || !*renderer) return;
     ewa_gaussian_renderer *old = *renderer;
     ewa_context *context = old->context;
+    if (old->backend) old->backend->destroy(context, old->backend_state);
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++) {
         ewa_gaussian_scratch *s = &old->scratch[i];
         ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids,
@@ -46,6 +48,16 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     ewa_bin_lists_free(context, &old->by_tile);
     ewa_release(context, old, 1, sizeof *old);
     *renderer = NULL;
+}
+
+void ewa_gaussian_renderer_use(ewa_gaussian_renderer *renderer, const ewa_gaussian_backend *backend, void *state) {
+    renderer->backend = backend, renderer->backend_state = state;
+}
+
+bool ewa_gaussian_renderer_describe(const ewa_gaussian_renderer *renderer, ewa_renderer_info *info, const char **remark) {
+    if (renderer->used_backend) renderer->backend->describe(renderer->backend_state, info);
+    *remark = renderer->remark;
+    return renderer->used_backend;
 }
 
 static void store3(ewa_vec3 from, float to[3]) {
@@ -216,10 +228,9 @@ static ewa_status list_parts(ewa_gaussian_job *job, double merge_px) {
 }
 
 /// Finds what is visible, each part in its own room.
-static ewa_status project_all(ewa_gaussian_job *job, double merge_px) {
+static ewa_status project_all(ewa_gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
     ewa_context *context = renderer->context;
-    EWA_TRY(list_parts(job, merge_px));
     EWA_TRY(ewa_buffer_reserve(context, &renderer->records, job->room, sizeof(ewa_gaussian_record)));
     EWA_TRY(ewa_buffer_reserve(context, &renderer->keys, job->room, sizeof(uint32_t)));
     EWA_TRY(ewa_buffer_reserve(context, &renderer->corners, 2 * job->room, sizeof(int32_t)));
@@ -405,16 +416,16 @@ static ewa_status draw_areas(ewa_gaussian_job *job) {
                : ewa_parallel_stoppable(context, "gaussians", draw_area, job, count);
 }
 
-ewa_status ewa_gaussian_job_draw(ewa_gaussian_job *job, double merge_px, ewa_gaussian_stats *stats) {
+/// Draws a frame whose parts are listed by the processor.
+static ewa_status draw_by_processor(ewa_gaussian_job *job, double start_s, ewa_gaussian_stats *stats) {
     ewa_gaussian_renderer *renderer = job->renderer;
     ewa_context *context = renderer->context;
-    const double start_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
         ewa_gaussian_scratch *scratch = &renderer->scratch[i];
         scratch->project_s = scratch->draw_s = 0;
         scratch->status = EWA_OK;
     }
-    EWA_TRY(project_all(job, merge_px));
+    EWA_TRY(project_all(job));
     const double projected_s = ewa_now_s();
     EWA_TRY(sort_all(job));
     EWA_TRY(ewa_bin_lists_fill(context, &renderer->by_tile, job->tiles.columns, job->tiles.rows,
@@ -429,5 +440,24 @@ ewa_status ewa_gaussian_job_draw(ewa_gaussian_job *job, double merge_px, ewa_gau
         const ewa_mixed_volume *volume = &job->mixture->volumes[i];
         if (volume->stats) ewa_volume_frame_measure(volume->renderer, &job->volumes[i], volume->stats);
     }
+    return EWA_OK;
+}
+
+ewa_status ewa_gaussian_job_draw(ewa_gaussian_job *job, double merge_px, ewa_gaussian_stats *stats) {
+    ewa_gaussian_renderer *renderer = job->renderer;
+    const double start_s = ewa_now_s();
+    EWA_TRY(list_parts(job, merge_px));
+    renderer->used_backend = false;
+    const ewa_gaussian_backend *backend = renderer->backend;
+    if (!backend) return draw_by_processor(job, start_s, stats);
+    ewa_gaussian_stats own;
+    EWA_TRY(backend->draw(renderer->backend_state, job, stats ? stats : &own, &renderer->used_backend, renderer->remark,
+                          sizeof renderer->remark));
+    if (renderer->used_backend) {
+        if (stats) stats->total_s = ewa_now_s() - start_s;
+        return EWA_OK;
+    }
+    EWA_TRY(draw_by_processor(job, start_s, stats));
+    backend->learn(renderer->backend_state, ewa_now_s() - start_s);
     return EWA_OK;
 }

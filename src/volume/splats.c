@@ -206,6 +206,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, bool levels, ewa_sp
     ewa_status status = order && made ? EWA_OK : EWA_ERROR_MEMORY;
     if (made) made->context = context;
     if (status == EWA_OK) {
+        made->serial = ewa_serial_next(context);
         made->harmonic_count = 3 * ((gaussians->sh_degree + 1) * (gaussians->sh_degree + 1) - 1);
         made->flat = gaussians->flat;
         made->info.sh_degree = gaussians->sh_degree;

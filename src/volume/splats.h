@@ -48,6 +48,7 @@ typedef float ewa_splat_packet[EWA_SPLAT_NUMBERS][EWA_SPLAT_LANES];
 
 struct ewa_splats {
     ewa_context *context;
+    uint64_t serial;                       ///< of its packets: another for each set, a view has that of what it borrows
     uint32_t packet_count;                 ///< of the splats themselves
     uint32_t part_count;                   ///< of parts that have levels; 0: none has
     uint32_t harmonic_count;               ///< harmonics beyond degree 0 of three colours

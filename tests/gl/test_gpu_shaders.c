@@ -4,8 +4,9 @@
 // The reference compiler of GLSL takes the programs of the compute pipeline: what it refuses some driver will, too. It also makes
 // SPIR-V for Vulkan of them, by its relaxed rules, as they are. Skipped where there is none (Debian: glslang-tools).
 #include "check.h"
+#include "gl/gaussian_programs.h"
 #include "gl/shaders.h"
-#include "gl/variant.h"
+#include "gl/sort.h"
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -60,6 +61,30 @@ TEST(test_passes) {
                 snprintf(path, sizeof path, "%s/%d_%zu_%zu.comp", folder, pass, a, k);
                 write_program(path, source.head, source.pieces, source.piece_count);
             }
+    compile();
+}
+
+TEST(test_gaussians) {
+    for (int a = 0; a < 2; a++)
+        for (int pass = 0; pass < EWA_GL_SPLAT_PASSES; pass++)
+            for (int detail = 0; detail < EWA_GL_SPLAT_DETAILS; detail++) {
+                ewa_gl_source source;
+                char path[128];
+                ewa_gl_gaussian_program_write(&arithmetics[a], (ewa_gl_gaussian_pass)pass, (ewa_gl_gaussian_detail)detail, &source);
+                snprintf(path, sizeof path, "%s/%d_%d_%d.comp", folder, pass, a, detail);
+                write_program(path, source.head, source.pieces, source.piece_count);
+            }
+    compile();
+}
+
+TEST(test_sort) {
+    for (uint32_t stage = 0; stage < EWA_GL_SORT_STAGES; stage++) {
+        ewa_gl_source source;
+        char path[128];
+        ewa_gl_sort_write(stage, &source);
+        snprintf(path, sizeof path, "%s/%u.comp", folder, stage);
+        write_program(path, source.head, source.pieces, source.piece_count);
+    }
     compile();
 }
 

@@ -31,6 +31,8 @@ void main() {
     results[at + 7u] = floatBitsToUint(float(double(v.x)));
     precise float small = v.s * MIN_NORMAL;
     results[at + 8u] = floatBitsToUint(small);
+    precise double factor = double(v.b) + double(v.n) * PER_2_30, long_product = double(v.a) * factor;
+    results[at + 9u] = floatBitsToUint(float(long_product));
 #else
     results[at] = floatBitsToUint(wf_fma(v.a, v.b, v.c));
     results[at + 1u] = floatBitsToUint(wf_div(v.n, v.m));
