@@ -221,24 +221,6 @@ static void put_over_black(uint8_t *rgba) {
             rgba[4 * i + c] = (uint8_t)((rgba[4 * i + c] * rgba[4 * i + 3] + 127) / 255);
 }
 
-/// Prints the shares of blocks of pixels that show something in which a value jumps, and of pixels in these.
-static void print_blocks(const bool *shown, const bool *jumping) {
-    for (uint32_t side = 4; side <= 64; side *= 2) {
-        uint64_t blocks = 0, with_jump = 0;
-        for (uint32_t y = 0; y < HEIGHT_PX; y += side)
-            for (uint32_t x = 0; x < WIDTH_PX; x += side) {
-                bool shows = false, jumps = false;
-                for (uint32_t j = y; j < y + side && j < HEIGHT_PX; j++)
-                    for (uint32_t i = x; i < x + side && i < WIDTH_PX; i++)
-                        shows = shows || shown[j * WIDTH_PX + i], jumps = jumps || jumping[j * WIDTH_PX + i];
-                blocks += shows, with_jump += jumps;
-            }
-        printf("%s%.0f %% of blocks of %u", side > 4 ? ", " : "last frame: a value beyond 8 in ",
-               100 * (double)with_jump / (double)(blocks ? blocks : 1), side);
-    }
-    printf(" pixels\n");
-}
-
 static int dolly(ewa_context *context, int count, char **words) {
     const int frame_count = count > 1 ? atoi(words[1]) : 240;
     const double first = count > 4 ? atof(words[4]) : 1.2;
@@ -256,7 +238,6 @@ static int dolly(ewa_context *context, int count, char **words) {
     double largest_step = 0, last_rms = 0;
     int max_jump = 0;
     uint64_t jumps = 0, values = 0;
-    bool *shows = calloc(PIXELS, sizeof *shows), *jumping = calloc(PIXELS, sizeof *jumping);
     for (int f = 0; f < frame_count; f++) {
         const ewa_camera camera = camera_at(&info.bounds, first * pow(1.01, f));
         ewa_render_options options = unlit(), of_octree = unlit();
@@ -274,8 +255,7 @@ static int dolly(ewa_context *context, int count, char **words) {
         uint64_t shown = 0;
         int jump = 0;
         for (uint32_t i = 0; i < PIXELS; i++) {
-            shows[i] = full.rgba8[4 * i + 3] || part.rgba8[4 * i + 3], jumping[i] = false;
-            if (!shows[i]) continue;
+            if (!full.rgba8[4 * i + 3] && !part.rgba8[4 * i + 3]) continue;
             shown++;
             for (uint32_t c = 0; c < 4; c++) {
                 const int error = part.rgba8[4 * i + c] - full.rgba8[4 * i + c];
@@ -285,7 +265,6 @@ static int dolly(ewa_context *context, int count, char **words) {
                           of_full = abs(pictures[f & 1][4 * i + c] - pictures[~f & 1][4 * i + c]);
                 jump = own - of_full > jump ? own - of_full : jump;
                 jumps += own - of_full > 8;
-                jumping[i] = jumping[i] || own - of_full > 8;
                 values++;
             }
         }
@@ -298,9 +277,6 @@ static int dolly(ewa_context *context, int count, char **words) {
     printf("%d frames: rms error changes by at most %.3f/255 a frame; largest jump beyond the full picture's "
            "%d/255, %llu of %llu values beyond 8\n",
            frame_count, largest_step, max_jump, (unsigned long long)jumps, (unsigned long long)values);
-    print_blocks(shows, jumping);
-    free(shows);
-    free(jumping);
     for (int i = 0; i < 4; i++) free(pictures[i]);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);

@@ -125,7 +125,7 @@ compile frag "pass 3, surface, clip lines" "STAGE=0 WITH_CLIPS=1" surface
 compile frag "pass 3, picture" "STAGE=5 WITH_CLIPS=0" surface
 for arithmetic in native emulated; do
     with=$([ $arithmetic = native ] && echo 1 || echo 0)
-    own="FUSED=$with DIVIDES=$with ROOTS=$with"
+    own="FUSED=$with DIVIDES=$with ROOTS=$with DOUBLE_QUOTIENTS=$with"
     compute "culling, $arithmetic" "$own PASS=0" scene packet cull
     compute "set-up, $arithmetic" "$own PASS=0" scene packet setup
     compute "lists, $arithmetic" "$own PASS=0" scene fill
@@ -154,7 +154,7 @@ for arithmetic in native emulated; do
     compute "averages, $arithmetic" "$own PASS=7" average
     # Gaussians; what a splat of a list takes without marks, and without pixels; a row of its marks.
     for detail in bare deep; do
-        splat="$own DEEP=$([ $detail = deep ] && echo 1 || echo 0) DOTS=0 STAGE=0"
+        splat="$own DEEP=$([ $detail = deep ] && echo 1 || echo 0) DOTS=0 AMONG=0 STAGE=0"
         kernel "Gaussians, $detail, $arithmetic" "$splat" wide scan gaussian_frame gaussian_project
         kernel "compositing, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
         edit='s/while (bits != 0u \&\& open)/while (false)/'
@@ -163,8 +163,9 @@ for arithmetic in native emulated; do
         kernel "and without marks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
         edit=
     done
+    kernel "compositing among surfaces, $arithmetic" "$own DEEP=1 DOTS=0 AMONG=1 STAGE=0" wide scan gaussian_frame codes gaussian_draw
 done
 for stage in 0 1 2; do kernel "sort, stage $stage" "STAGE=$stage" scan sort; done
 for stage in 0 1 2 3; do
-    kernel "lists of Gaussians, stage $stage" "FUSED=1 DIVIDES=1 ROOTS=1 DEEP=0 DOTS=0 STAGE=$stage" wide scan gaussian_frame gaussian_list
+    kernel "lists of Gaussians, stage $stage" "FUSED=1 DIVIDES=1 ROOTS=1 DOUBLE_QUOTIENTS=1 DEEP=0 DOTS=0 AMONG=0 STAGE=$stage" wide scan gaussian_frame gaussian_list
 done

@@ -77,7 +77,7 @@ typedef struct ewa_renderer_info {
     uint64_t upload_bytes;
     uint64_t readback_bytes; ///< that were read from it
     /// Of ewa_scene_renderer_describe(): what drew the Gaussians and volumes of the last picture, "cpu" or "gl", else "". Where it was the
-    /// device and there were no surfaces, the counts above are theirs.
+    /// device, the counts above are theirs.
     char mixture[16];
     char mixture_remark[160]; ///< of EWA_BACKEND_GL and EWA_BACKEND_AUTO: why; else ""
 } ewa_renderer_info;

@@ -19,12 +19,14 @@ typedef struct frame_block {
     float minimum_transmittance, near_depth;
     uint32_t block_count, pad;
     float background[4];
-    double unit_camera;
+    uint32_t with_surface, with_coverage, section_count, sections_pad;
+    double unit_camera, unit_pad;
+    double lens[4], sections[EWA_MAX_SECTION_PLANES][4];
 } frame_block;
 
 /// As gaussian_project.glsl has it.
 typedef struct view_block {
-    uint32_t orthographic, trained, flat, normals, keep, sh_degree, harmonic_count;
+    uint32_t orthographic, trained, flat, normals, keep, sh_degree, harmonic_count, with_colors, with_lanes;
     float fx_px, fy_px, cx_px, cy_px, width_px, height_px, last_column, last_row;
     float turn[3][3], origin[3], eye[3], forward[3], slopes[4];
     float near, cutoff2, prefilter_px2, dot_px2, log2_min, minimum_alpha, set_unit;
@@ -41,7 +43,7 @@ typedef struct segment {
 
 /// The segments of a page that a frame draws from: [first, end), and their packets.
 typedef struct page_use {
-    uint32_t set, page, first, end, packet_count;
+    uint32_t set, page, view, first, end, packet_count;
 } page_use;
 
 /// Stages whose times are told, as numbers of ewa_gl_times.
@@ -109,13 +111,13 @@ static ewa_status add_packets(ewa_gl_gaussians *of, frame *f, uint32_t *segment_
         const uint32_t page = (uint32_t)(first / page_packets), at = (uint32_t)(first % page_packets);
         const uint32_t here = (uint32_t)smaller(count, page_packets - at);
         page_use *use = (page_use *)of->uses.data + f->use_count - 1;
-        if (!f->use_count || use->set != set || use->page != page) {
+        if (!f->use_count || use->set != set || use->page != page || use->view != view) {
             EWA_TRY(ewa_buffer_grow(of->context, &of->uses, f->use_count, (size_t)f->use_count + 1, sizeof *use));
             use = (page_use *)of->uses.data + f->use_count++;
-            *use = (page_use){.set = set, .page = page, .first = *segment_count, .end = *segment_count};
+            *use = (page_use){.set = set, .page = page, .view = view, .first = *segment_count, .end = *segment_count};
         }
         segment *last = (segment *)of->segments.data + *segment_count - 1;
-        const bool goes_on = use->end > use->first && last->view == view && last->at + use->packet_count - last->first == at &&
+        const bool goes_on = use->end > use->first && last->at + use->packet_count - last->first == at &&
                              last->slot + use->packet_count - last->first == slot;
         if (!goes_on) {
             EWA_TRY(ewa_buffer_grow(of->context, &of->segments, *segment_count, (size_t)*segment_count + 1, sizeof *last));
@@ -124,6 +126,20 @@ static ewa_status add_packets(ewa_gl_gaussians *of, frame *f, uint32_t *segment_
         }
         use->packet_count += here, first += here, slot += here, count -= here;
     }
+    return EWA_OK;
+}
+
+/// Copies the planes of surfaces that are there: depth, colours, coverage.
+static ewa_status put_surfaces(ewa_gl_gaussians *of, const frame *f) {
+    enum { FLOATS = 6 };
+    const ewa_surface_planes *planes = &f->job->target.surface;
+    const uint64_t plane_bytes = f->pixel_count * sizeof(float);
+    const ewa_gl_buffer *buffer = &of->buffers[EWA_GL_SPLAT_SURFACES];
+    if (!f->job->view.with_surface) return reserve(of, EWA_GL_SPLAT_SURFACES, "surfaces", 0);
+    EWA_TRY(reserve(of, EWA_GL_SPLAT_SURFACES, "surfaces", FLOATS * plane_bytes));
+    ewa_gl_buffer_write(of->device, buffer, 0, planes->depth, plane_bytes);
+    ewa_gl_buffer_write(of->device, buffer, plane_bytes, planes->rgba, 4 * plane_bytes);
+    if (planes->coverage) ewa_gl_buffer_write(of->device, buffer, 5 * plane_bytes, planes->coverage, plane_bytes);
     return EWA_OK;
 }
 
@@ -139,6 +155,8 @@ static ewa_status put_frame(ewa_gl_gaussians *of, frame *f) {
     for (uint32_t i = 0; i < set_count; i++) {
         uint32_t set;
         set_view_block(&blocks[i], &views[i]);
+        blocks[i].with_colors = job->colors && job->colors[i];
+        blocks[i].with_lanes = job->mixture->splats[i]->shown_lanes != NULL;
         EWA_TRY(ewa_gl_splat_sets_get(of->device, &of->sets, job->mixture->splats[i], &set));
         for (; part < job->part_count && job->parts[part].view == &views[i]; part++) {
             const ewa_gaussian_part *p = &job->parts[part];
@@ -146,6 +164,7 @@ static ewa_status put_frame(ewa_gl_gaussians *of, frame *f) {
         }
     }
     f->slot_count = (uint32_t)job->room;
+    EWA_TRY(put_surfaces(of, f));
     EWA_TRY(put(of, EWA_GL_SPLAT_VIEWS, "views", blocks, (uint64_t)set_count * sizeof *blocks));
     return put(of, EWA_GL_SPLAT_SEGMENTS, "packets", of->segments.data, (uint64_t)segment_count * sizeof(segment));
 }
@@ -195,8 +214,13 @@ static ewa_status put_numbers(ewa_gl_gaussians *of, const frame *f) {
                          .minimum_transmittance = job->view.minimum_transmittance,
                          .near_depth = job->view.near,
                          .block_count = block_count_of(of->visible_mark),
-                         .unit_camera = job->view.unit_camera};
+                         .with_surface = job->view.with_surface,
+                         .with_coverage = job->target.surface.coverage != NULL,
+                         .section_count = job->sections.count,
+                         .unit_camera = job->view.unit_camera,
+                         .lens = {job->sections.fx_px, job->sections.fy_px, job->sections.cx_px, job->sections.cy_px}};
     memcpy(block.background, job->target.background, sizeof block.background);
+    memcpy(block.sections, job->sections.planes, sizeof block.sections);
     EWA_TRY(put(of, EWA_GL_SPLAT_FRAME, "the frame", &block, sizeof block));
     const uint32_t counts[COUNT_WORDS] = {[SLOT_COUNT] = f->slot_count};
     return put(of, EWA_GL_SPLAT_COUNTS, "counts", counts, sizeof counts);
@@ -216,11 +240,17 @@ static ewa_status project(ewa_gl_gaussians *of, const frame *f) {
     bind(of, 8, EWA_GL_SPLAT_COUNTS);
     const page_use *uses = of->uses.data;
     for (uint32_t i = 0; i < f->use_count; i++) {
-        const ewa_gl_splat_set *set = ewa_gl_splat_sets_at(&of->sets, uses[i].set);
-        const ewa_gl_splat_page *page = (const ewa_gl_splat_page *)set->pages.data + uses[i].page;
-        const GLuint harmonics = page->harmonics.name;
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, page->packets.name);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, harmonics ? harmonics : page->packets.name);
+        const ewa_gaussian_job *job = f->job;
+        const ewa_gl_splat_look look = {job->mixture->splats[uses[i].view], job->colors ? job->colors[uses[i].view] : NULL};
+        const ewa_gl_splat_page *page;
+        EWA_TRY(ewa_gl_splat_sets_look(of->device, &of->sets, uses[i].set, uses[i].page, &look, &page));
+        // Where a page lacks something another stands there, which the program does not read.
+        const GLuint packets = page->packets.name, harmonics = page->harmonics.name, colors = page->colors.name,
+                     lanes = page->lanes.name;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, packets);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, harmonics ? harmonics : packets);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9, colors ? colors : packets);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 10, lanes ? lanes : packets);
         glUniform1ui(FIRST_SEGMENT, uses[i].first);
         glUniform1ui(END_SEGMENT, uses[i].end);
         glUniform1ui(PACKET_COUNT, uses[i].packet_count);
@@ -275,7 +305,7 @@ static ewa_status composite(ewa_gl_gaussians *of, const frame *f, int in) {
     enum { FIRST_TILE, QUARTERS = 4 };
     const uint32_t tile_count = ewa_tiles_count(&f->job->tiles), step = (tile_count + f->parts - 1) / f->parts;
     bind(of, 0, EWA_GL_TILE_KEYS + in), bind(of, 1, EWA_GL_TILE_NUMBERS + in), bind(of, 2, EWA_GL_SPLAT_RECORDS);
-    bind(of, 3, EWA_GL_SPLAT_RESULT);
+    bind(of, 3, EWA_GL_SPLAT_RESULT), bind(of, 4, EWA_GL_SPLAT_SURFACES);
     EWA_TRY(use(of, f, EWA_GL_SPLATS_DRAW));
     for (uint32_t first = 0; first < tile_count; first += step) {
         glUniform1ui(FIRST_TILE, first);
@@ -376,9 +406,9 @@ static ewa_status draw_once(ewa_gl_gaussians *of, const frame *f, uint32_t *coun
 ewa_status ewa_gl_gaussians_draw(ewa_gl_gaussians *of, const ewa_gaussian_job *job, ewa_gaussian_stats *stats) {
     frame f = {.job = job};
     const ewa_gaussian_view *view = &job->view;
-    f.detail = view->with_flat                        ? EWA_GL_SPLATS_FLAT
-               : view->with_depth || !view->trained ? EWA_GL_SPLATS_DEEP
-                                                      : EWA_GL_SPLATS_BARE;
+    const bool among = view->with_surface || view->with_sections;
+    if (view->with_flat) f.detail = among ? EWA_GL_SPLATS_FLAT_AMONG : EWA_GL_SPLATS_FLAT;
+    else if (among || view->with_depth || !view->trained) f.detail = among ? EWA_GL_SPLATS_DEEP_AMONG : EWA_GL_SPLATS_DEEP;
     place_planes(&f);
     *stats = (ewa_gaussian_stats){.splat_count = 0};
     for (uint32_t i = 0; i < job->mixture->splats_count; i++) stats->splat_count += job->mixture->splats[i]->info.splat_count;

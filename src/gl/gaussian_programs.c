@@ -25,6 +25,8 @@ static const struct {
     {"MIN_KEPT", (float)EWA_GAUSSIAN_MIN_KEPT},
     {"MAX_ALPHA", (float)EWA_GAUSSIAN_MAX_ALPHA},
     {"NEAR_REACHES", (float)EWA_GAUSSIAN_NEAR},
+    {"SQRT_HALF", 0.707106781f},
+    {"THINNEST", 1e-30f},
     {"LITTLE", 2e-6f},
     {"LEAST", 1e-6f},
     {"WIDEST", 1e-30f},
@@ -49,8 +51,9 @@ void ewa_gl_gaussian_program_write(const ewa_gl_arithmetic *arithmetic, ewa_gl_g
         at += (size_t)snprintf(source->head + at, sizeof source->head - at, "#define %s uintBitsToFloat(0x%08xu)\n",
                                constants[i].name, (unsigned)bits);
     }
-    snprintf(source->head + at, sizeof source->head - at, "#define DEEP %d\n#define DOTS %d\n#define STAGE %d\n",
-             detail >= EWA_GL_SPLATS_DEEP, detail == EWA_GL_SPLATS_FLAT, projects || draws ? 0 : (int)pass - EWA_GL_SPLATS_COUNT);
+    snprintf(source->head + at, sizeof source->head - at, "#define DEEP %d\n#define DOTS %d\n#define AMONG %d\n#define STAGE %d\n",
+             detail >= EWA_GL_SPLATS_DEEP, detail == EWA_GL_SPLATS_FLAT || detail == EWA_GL_SPLATS_FLAT_AMONG,
+             detail >= EWA_GL_SPLATS_DEEP_AMONG, projects || draws ? 0 : (int)pass - EWA_GL_SPLATS_COUNT);
     const char *const pieces[] = {ewa_shader_wide, ewa_shader_scan, ewa_shader_gaussian_frame,
                                   draws ? ewa_shader_codes : NULL,
                                   projects ? ewa_shader_gaussian_project : draws ? ewa_shader_gaussian_draw : ewa_shader_gaussian_list};
@@ -72,6 +75,8 @@ static ewa_status make(ewa_gl *device, const ewa_gl_arithmetic *arithmetic, ewa_
 
 ewa_status ewa_gl_gaussian_program_use(ewa_gl *device, ewa_gl_gaussian_programs *programs, const ewa_gl_arithmetic *arithmetic,
                                        ewa_gl_gaussian_pass pass, ewa_gl_gaussian_detail detail) {
+    // Records are the same among surfaces.
+    if (pass == EWA_GL_SPLATS_PROJECT && detail >= EWA_GL_SPLATS_DEEP_AMONG) detail -= EWA_GL_SPLATS_DEEP_AMONG - EWA_GL_SPLATS_DEEP;
     GLuint *program = &programs->programs[pass][pass == EWA_GL_SPLATS_PROJECT || pass == EWA_GL_SPLATS_DRAW ? detail : 0];
     if (!*program) EWA_TRY(make(device, arithmetic, pass, detail, program));
     glUseProgram(*program);

@@ -22,11 +22,13 @@ typedef enum ewa_gl_gaussian_detail {
     EWA_GL_SPLATS_BARE, ///< the ellipse
     EWA_GL_SPLATS_DEEP, ///< how rays pass them
     EWA_GL_SPLATS_FLAT, ///< dots of 2D Gaussians
+    EWA_GL_SPLATS_DEEP_AMONG, ///< the same, among surfaces or section planes
+    EWA_GL_SPLATS_FLAT_AMONG,
     EWA_GL_SPLAT_DETAILS
 } ewa_gl_gaussian_detail;
 
 /// Vectors of 16 bytes of a record.
-static const uint32_t ewa_gl_record_parts[EWA_GL_SPLAT_DETAILS] = {3, 6, 7};
+static const uint32_t ewa_gl_record_parts[EWA_GL_SPLAT_DETAILS] = {3, 6, 7, 6, 7};
 
 /// Zero-initialise.
 typedef struct ewa_gl_gaussian_programs {

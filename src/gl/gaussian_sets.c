@@ -13,6 +13,8 @@ static void free_set(ewa_context *context, ewa_gl_splat_sets *sets, ewa_gl_splat
     for (uint32_t i = 0; i < old->page_count && there; i++) {
         ewa_gl_buffer_free(&pages[i].packets);
         ewa_gl_buffer_free(&pages[i].harmonics);
+        ewa_gl_buffer_free(&pages[i].colors);
+        ewa_gl_buffer_free(&pages[i].lanes);
     }
     sets->size_bytes -= old->size_bytes;
     ewa_buffer_free(context, &old->pages);
@@ -85,4 +87,39 @@ void ewa_gl_splat_sets_free(ewa_context *context, ewa_gl_splat_sets *sets, bool 
     for (uint32_t i = 0; i < sets->count; i++) free_set(context, sets, &items[i], there);
     sets->count = sets->next = 0;
     ewa_buffer_free(context, &sets->items);
+    ewa_buffer_free(context, &sets->staging);
+}
+
+/// Colours in place of those of packets from `first` on.
+static ewa_status put_colors(ewa_gl *device, ewa_gl_splat_sets *sets, const ewa_gl_splat_look *look, size_t first, size_t count,
+                             ewa_gl_splat_page *page) {
+    enum { ROWS = 3 };
+    EWA_TRY(ewa_buffer_reserve(device->context, &sets->staging, count, ROWS * EWA_SPLAT_LANES * sizeof(float)));
+    float(*to)[EWA_SPLAT_LANES] = sets->staging.data;
+    for (size_t i = 0; i < count; i++, to += ROWS) {
+        ewa_splat_packet painted;
+        ewa_splat_colors_apply(look->colors, (const ewa_splat_packet *)look->splats->packets, first + i, &painted);
+        memcpy(to, painted[EWA_SPLAT_COLOR], ROWS * sizeof *to);
+    }
+    EWA_TRY(ewa_gl_buffer_put(device, &page->colors, "colours", sets->staging.data, count * ROWS * sizeof *to));
+    page->colors_serial = look->colors->serial;
+    return EWA_OK;
+}
+
+ewa_status ewa_gl_splat_sets_look(ewa_gl *device, ewa_gl_splat_sets *sets, uint32_t set, uint32_t page_number,
+                                  const ewa_gl_splat_look *look, const ewa_gl_splat_page **page) {
+    const ewa_gl_splat_set *of = ewa_gl_splat_sets_at(sets, set);
+    ewa_gl_splat_page *found = (ewa_gl_splat_page *)of->pages.data + page_number;
+    const ewa_splats *splats = look->splats;
+    const size_t first = page_number * (size_t)of->page_packets, left = ewa_splats_all_packets(splats) - first;
+    const size_t count = left < of->page_packets ? left : of->page_packets;
+    *page = found;
+    if (look->colors && look->colors->serial != found->colors_serial)
+        EWA_TRY(put_colors(device, sets, look, first, count, found));
+    if (!splats->shown_lanes || splats->lanes_serial == found->lanes_serial) return EWA_OK;
+    // Two packets share a word.
+    EWA_TRY(ewa_gl_buffer_reserve(device, &found->lanes, "Gaussians", (count + 1) / 2 * sizeof(uint32_t)));
+    ewa_gl_buffer_write(device, &found->lanes, 0, splats->shown_lanes + first, count * sizeof *splats->shown_lanes);
+    found->lanes_serial = splats->lanes_serial;
+    return EWA_OK;
 }

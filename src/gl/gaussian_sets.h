@@ -6,12 +6,19 @@
 #define EWA_SRC_GL_GAUSSIAN_SETS_H
 
 #include "gl/memory.h"
-#include "volume/splats.h"
+#include "volume/splat_colors.h"
 
-/// As many packets as buffers have room for; without harmonics beyond degree 0 only one buffer.
+/// As many packets as buffers have room for; those that they do not need are no buffers.
 typedef struct ewa_gl_splat_page {
-    ewa_gl_buffer packets, harmonics;
+    ewa_gl_buffer packets, harmonics, colors, lanes;
+    uint64_t colors_serial, lanes_serial; ///< of what is there; 0: nothing is
 } ewa_gl_splat_page;
+
+/// How a frame shows a set.
+typedef struct ewa_gl_splat_look {
+    const ewa_splats *splats;       ///< with the lanes that are shown
+    const ewa_splat_colors *colors; ///< in place of its own; NULL: these
+} ewa_gl_splat_look;
 
 /// A set that is there.
 typedef struct ewa_gl_splat_set {
@@ -23,7 +30,7 @@ typedef struct ewa_gl_splat_set {
 
 /// All that are there. Zero-initialise.
 typedef struct ewa_gl_splat_sets {
-    ewa_buffer items; ///< ewa_gl_splat_set
+    ewa_buffer items, staging; ///< ewa_gl_splat_set; bytes on their way
     uint32_t count, next;
     uint32_t page_packets; ///< at most, of a page; 0: as many as fit
     uint64_t kept_bytes;   ///< copies that the last frame did not use are kept up to so many; 0: a default
@@ -35,6 +42,10 @@ void ewa_gl_splat_sets_start(ewa_gl *device, ewa_gl_splat_sets *sets);
 
 /// Returns the index of a set, copied when it is not there; it stays during the frame. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED.
 ewa_status ewa_gl_splat_sets_get(ewa_gl *device, ewa_gl_splat_sets *sets, const ewa_splats *splats, uint32_t *index);
+
+/// Returns a page of a set, with colours and lanes as a frame shows it. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED.
+ewa_status ewa_gl_splat_sets_look(ewa_gl *device, ewa_gl_splat_sets *sets, uint32_t set, uint32_t page_number,
+                                  const ewa_gl_splat_look *look, const ewa_gl_splat_page **page);
 
 static inline const ewa_gl_splat_set *ewa_gl_splat_sets_at(const ewa_gl_splat_sets *sets, uint32_t index) {
     return (const ewa_gl_splat_set *)sets->items.data + index;

@@ -15,12 +15,7 @@ static const char *refusal_of(const ewa_gaussian_job *job) {
     if (!job->mixture->splats_count) return "nothing blends but what is drawn by the CPU";
     if (job->mixture->volume_count) return "Gaussians among volumes are drawn by the CPU";
     if (!job->view.by_center) return "Gaussians in the order of rays are drawn by the CPU";
-    if (job->view.with_surface) return "Gaussians among surfaces are drawn by the CPU";
-    if (job->view.with_sections) return "sections of Gaussians are drawn by the CPU";
-    for (uint32_t i = 0; i < job->mixture->splats_count; i++) {
-        if (job->colors && job->colors[i]) return "Gaussians coloured by numbers are drawn by the CPU";
-        if (job->mixture->splats[i]->shown_lanes) return "Gaussians of which regions hide some are drawn by the CPU";
-    }
+    if (job->view.with_surface && (job->target.normal || job->view.normals)) return "normals of Gaussians among surfaces are drawn by the CPU";
     return NULL;
 }
 
@@ -28,12 +23,13 @@ static ewa_gl_gaussian_kind kind_of(const ewa_gaussian_job *job) {
     return (ewa_gl_gaussian_kind){.splat_count = job->room,
                                   .pixel_count = (uint64_t)job->target.width_px * job->target.height_px,
                                   .with_depth = job->view.with_depth,
-                                  .normals = job->view.normals};
+                                  .normals = job->view.normals,
+                                  .among = job->view.with_surface || job->view.with_sections};
 }
 
 static bool is_other(const ewa_gl_gaussian_kind *a, const ewa_gl_gaussian_kind *b) {
     return ewa_gl_far_apart(a->splat_count, b->splat_count) || ewa_gl_far_apart(a->pixel_count, b->pixel_count) ||
-           a->with_depth != b->with_depth || a->normals != b->normals;
+           a->with_depth != b->with_depth || a->normals != b->normals || a->among != b->among;
 }
 
 /// The device of the surfaces; NULL: there is none that is to be used, and `*why` says why.

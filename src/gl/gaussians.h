@@ -27,7 +27,8 @@ typedef enum ewa_gl_gaussian_buffer {
     EWA_GL_BLOCK_SUMS = EWA_GL_DEPTH_NUMBERS + 2,
     EWA_GL_TILE_KEYS,
     EWA_GL_TILE_NUMBERS = EWA_GL_TILE_KEYS + 2,
-    EWA_GL_SPLAT_RESULT = EWA_GL_TILE_NUMBERS + 2,
+    EWA_GL_SPLAT_SURFACES = EWA_GL_TILE_NUMBERS + 2,
+    EWA_GL_SPLAT_RESULT,
     EWA_GL_SPLAT_READBACK,
     EWA_GL_SPLAT_BUFFERS
 } ewa_gl_gaussian_buffer;
@@ -35,7 +36,7 @@ typedef enum ewa_gl_gaussian_buffer {
 /// What decides how long frames take.
 typedef struct ewa_gl_gaussian_kind {
     uint64_t splat_count, pixel_count;
-    bool with_depth, normals;
+    bool with_depth, normals, among;
 } ewa_gl_gaussian_kind;
 
 typedef struct ewa_gl_gaussians {
@@ -49,7 +50,7 @@ typedef struct ewa_gl_gaussians {
     ewa_gl_buffer buffers[EWA_GL_SPLAT_BUFFERS];
     uint32_t visible_mark, pair_mark; ///< what there is room for
     ewa_gl_times times;
-    ewa_buffer views, segments, uses;
+    ewa_buffer views, segments, uses, staging;
     ewa_gl_choice choice; ///< of EWA_BACKEND_AUTO
     ewa_gl_gaussian_kind kind;
     char remark[160];

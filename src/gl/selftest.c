@@ -15,7 +15,7 @@
 #define WIDE_PORTABLE
 #include "wide/wide_functions.h"
 
-enum { COUNT = 1 << 14, WORDS = 10, SINGLES = 8, GROUP = 64, LANES = 16 };
+enum { COUNT = 1 << 14, WORDS = 12, SINGLES = 8, GROUP = 64, LANES = 16 };
 
 /// As selftest.glsl has them.
 typedef struct numbers {
@@ -106,7 +106,7 @@ static bool agree_double(const uint32_t words[2], double wanted) {
 /// Sets which of a device's own operations are correctly rounded, and whether it has numbers below the normal ones. Returns what else is wrong, that nothing helps; NULL: nothing.
 static const char *evaluate_own(trial_memory *memory, ewa_gl_arithmetic *own, bool *subnormals) {
     bool doubles = true;
-    *subnormals = true;
+    *subnormals = own->double_quotients = true;
     for (uint32_t i = 0; i < COUNT; i++) {
         const numbers *v = &memory->inputs[i];
         const double product = (double)v->a * (double)v->b, sum = product + (double)v->c;
@@ -114,7 +114,9 @@ static const char *evaluate_own(trial_memory *memory, ewa_gl_arithmetic *own, bo
         wanted[0] = fmaf(v->a, v->b, v->c), wanted[1] = v->n / v->m, wanted[2] = sqrtf(v->x);
         wanted[3] = v->a * v->b + v->c, wanted[4] = (float)product, wanted[7] = v->x;
         wanted[9] = (float)((double)v->a * ((double)v->b + (double)v->n * 0x1p-30));
+        const double quotient = ((double)v->b + (double)v->n * 0x1p-30) / ((double)v->a + (double)v->m * 0x1p-30);
         doubles &= agree_double(&memory->results[i][5], sum);
+        own->double_quotients &= agree_double(&memory->results[i][10], quotient);
         const float small = v->s * 0x1p-126f;
         *subnormals &= memcmp(&memory->results[i][8], &small, sizeof small) == 0;
     }
@@ -163,6 +165,8 @@ static const char *find_difference(trial_memory *memory) {
         if ((i & 3) == 2) // half-way between two numbers, but for next to nothing
             a = 1 + 0x1p-30, b = 1 - 0x1p-30, c = 0x1p53 + 2 * (double)floorf(v->s * 0x1p20f);
         if (!agree_double(&memory->results[i][SINGLES], fma(a, b, c))) return "fma of doubles";
+        if (!agree_double(&memory->results[i][SINGLES + 2], ((i & 3) == 2 ? c : (double)v->c + (double)v->x * 0x1p-30) / b))
+            return "division of doubles";
     }
     return NULL;
 }
@@ -200,8 +204,8 @@ static ewa_status evaluate(ewa_gl *device, const ewa_gl_buffer *inputs, const ew
     EWA_TRY(run(device, use, true, inputs, results, memory));
     verdict->differs = evaluate_own(memory, &verdict->own, &verdict->subnormals);
     *use = verdict->own;
-    if (ewa_gl_tuning_is("arith", "emulated")) *use = (ewa_gl_arithmetic){false, false, false};
-    if (ewa_gl_tuning_is("arith", "close")) *use = (ewa_gl_arithmetic){true, true, true};
+    if (ewa_gl_tuning_is("arith", "emulated")) *use = (ewa_gl_arithmetic){.fused = false};
+    if (ewa_gl_tuning_is("arith", "close")) *use = (ewa_gl_arithmetic){true, true, true, true};
     if (!verdict->differs) {
         EWA_TRY(run(device, use, false, inputs, results, memory));
         verdict->differs = find_difference(memory);

@@ -62,11 +62,11 @@ static const struct {
 
 size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
     size_t at = (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
-                                 "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
+                                 "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n#define DOUBLE_QUOTIENTS %d\n"
                                  "#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MERGED_SURFACES %d\n"
                                  "#define MAX_MATERIALS %d\n#define MAX_SECTIONS %d\n#define CONE_BITS %d\n"
                                  "#define CONE_AXIS %d\n#define CONE_SINE %du\n#define RADIUS_SHIFT %d\n#define EYE_DOME_REACH %d\n",
-                                 arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
+                                 arithmetic->fused, arithmetic->divides, arithmetic->roots, arithmetic->double_quotients, EWA_MAX_LIGHTS,
                                  EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES, EWA_MAX_MATERIALS,
                                  EWA_MAX_SECTION_PLANES, EWA_CONE_BITS, EWA_CONE_AXIS, EWA_CONE_SINE, EWA_RADIUS_SHIFT,
                                  EWA_EYE_DOME_REACH);

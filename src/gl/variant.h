@@ -34,6 +34,7 @@ typedef struct ewa_gl_arithmetic {
     bool fused;   ///< fma() rounds once
     bool divides; ///< a / b is correctly rounded
     bool roots;   ///< sqrt() is
+    bool double_quotients; ///< a / b of doubles is
 } ewa_gl_arithmetic;
 
 enum { EWA_GL_MAX_VARIANTS = 48 };

@@ -58,6 +58,7 @@ ewa_status ewa_splats_show(ewa_context *context, const ewa_splats *splats, ewa_p
     *made = *splats;
     made->context = context;
     made->shown_lanes = lanes;
+    made->lanes_serial = ewa_serial_next(context);
     *view = made;
     return EWA_OK;
 }

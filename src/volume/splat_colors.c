@@ -65,6 +65,7 @@ ewa_status ewa_splat_colors_create(const ewa_splats *splats, const ewa_cloud *ow
     ewa_splat_colors *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->serial = ewa_serial_next(context);
     made->packet_count = splats->packet_count + level_packets(splats);
     made->colors = ewa_allocate_zeroed(context, made->packet_count, sizeof *made->colors);
     if (!made->colors) {

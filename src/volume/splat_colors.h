@@ -11,6 +11,7 @@
 /// Display values, for each packet of a set and of its levels.
 typedef struct ewa_splat_colors {
     ewa_context *context;
+    uint64_t serial; ///< another for each of them
     size_t packet_count;
     float (*colors)[3][EWA_SPLAT_LANES];
 } ewa_splat_colors;

@@ -59,6 +59,7 @@ struct ewa_splats {
     int16_t (*harmonics)[EWA_SPLAT_LANES]; ///< [packet * harmonic_count + 3 (harmonic - 1) + colour]
     ewa_splat_part *parts;
     uint16_t (*classes)[EWA_SPLAT_LANES];  ///< [packet] with those of the levels; NULL: there are none
+    uint64_t lanes_serial; ///< of `shown_lanes`
     uint16_t *shown_lanes; ///< [packet] of a view (shown.h), which borrows all before: a bit for each lane; NULL: all are shown
     ewa_splats_info info;
 };

@@ -80,6 +80,33 @@ TEST(test_same_pictures) {
     assert_non_null(strstr(last_run.out, "\"passes\": 3"));
 }
 
+/// Writes a file of three Gaussians.
+static void write_gaussians(void) {
+    FILE *file = fopen(scratch_path("three.splat"), "wb");
+    assert_non_null(file);
+    for (int i = 0; i < 3; i++) {
+        const float numbers[6] = {(float)i, 0, 0.5f * (float)i, 0.5f, 0.3f, 0.4f};
+        const uint8_t codes[8] = {(uint8_t)(250 - 80 * i), 100, (uint8_t)(80 * i), 200, 255, 128, 128, 128};
+        assert_int_equal(fwrite(numbers, sizeof numbers, 1, file), 1);
+        assert_int_equal(fwrite(codes, sizeof codes, 1, file), 1);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+/// Gaussians by both, alone and among points; what the device leaves says why.
+TEST(test_gaussians) {
+    if (!exact()) return;
+    static const char *const scenes[] = {"three.splat", "three.splat torus.ply", "three.splat --order ray"};
+    write_gaussians();
+    for (int i = 0; i < 3; i++) {
+        run_done("ewa render %s -o c.png --size 64x48 --up y && ewa render %s -o d.png --size 64x48 --up y --backend gl --stats - 2>err", scenes[i],
+                 scenes[i]);
+        assert_non_null(strstr(last_run.out, i < 2 ? "\"mixture_backend\": \"gl\"" : "\"mixture_backend\": \"cpu\""));
+        assert_true((strstr(last_run.out, "in the order of rays") != NULL) == (i == 2));
+        assert_true(scratch_same("c.png", "d.png"));
+    }
+}
+
 /// Three frames, of which the device is lost in one: the same film as ever, and a warning.
 TEST(test_lost) {
     if (!exact()) return;

@@ -6,6 +6,8 @@
 #include "gpu_scene.h"
 #include "volume/gaussian_backend.h"
 #include "volume/gaussian_scene.h"
+#include "volume/shown.h"
+#include "volume/splat_colors.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +22,7 @@ typedef struct both {
     ewa_renderer *surfaces;
     ewa_gaussian_renderer *cpu, *gpu;
     ewa_splats *sets[MAX_SETS];
+    const ewa_splat_colors *colors[MAX_SETS]; ///< NULL: its own
     uint32_t set_count;
 } both;
 
@@ -58,7 +61,7 @@ static void draw(const both *b, ewa_gaussian_renderer *renderer, const ewa_camer
                              .rgba8 = planes & CODES ? to + 9 * pixels * sizeof(float) : NULL};
     memset(to, 0x55, FLOATS * sizeof(float) * pixels);
     const ewa_mixture mixture = {.splats = (const ewa_splats *const *)b->sets, .splats_count = b->set_count};
-    assert_int_equal(ewa_mixture_render(renderer, &mixture, camera, options, &frame, stats), EWA_OK);
+    assert_int_equal(ewa_mixture_draw(renderer, &mixture, b->colors, camera, options, &frame, stats), EWA_OK);
 }
 
 /// Whether the device drew the last frame.
@@ -264,6 +267,101 @@ TEST_ON(test_counts, 1) {
     print_message("%u dispatches, %u bytes sent\n", infos[0].dispatch_count, (unsigned)infos[0].upload_bytes);
 }
 
+/// Planes of surfaces: nothing, whole pixels at several depths, edges of every coverage.
+static void make_surfaces(uint32_t width_px, uint32_t height_px, float *depth, float *rgba, float *coverage) {
+    check_random random = {.state = 3};
+    for (uint32_t i = 0; i < width_px * height_px; i++) {
+        const uint32_t x = i % width_px, y = i / width_px;
+        const bool some = (x / 11 + y / 7) % 3 != 0, edge = x % 11 == 0;
+        depth[i] = some ? 1.5f + 0.1f * (float)(x % 23) + 0.02f * (float)y : INFINITY;
+        coverage[i] = !some ? 0 : edge ? (float)(check_random_u64(&random) % 1000) / 1000 : 1;
+        for (uint32_t c = 0; c < 3; c++) rgba[4 * i + c] = coverage[i] * (float)((x * (c + 3) + y) % 17) / 16;
+        rgba[4 * i + 3] = coverage[i];
+    }
+}
+
+/// Among surfaces, cut by section planes, and both; 2D ones, without perspective, by rays at the eye.
+TEST_ON(test_among, 2) {
+    enum { WIDTH_PX = 70, HEIGHT_PX = 45, PIXELS = WIDTH_PX * HEIGHT_PX };
+    static float depth[PIXELS], rgba[4 * PIXELS], coverage[PIXELS];
+    make_surfaces(WIDTH_PX, HEIGHT_PX, depth, rgba, coverage);
+    OWNED(leave) both b = {.set_count = 0};
+    for (int n = 0; n < 20; n++) {
+        if (n % 10 == 0) {
+            leave(&b);
+            b = make(context, EWA_BACKEND_GL, n ? "arith=emulated" : "");
+            ewa_gaussians set = gaussians_random(context, 700, 1, 7);
+            add(&b, &set);
+        }
+        if (n % 10 == 5) {
+            ewa_gaussians flat = gaussians_random(context, 200, 0, 3);
+            flat.flat = true;
+            add(&b, &flat);
+        }
+        ewa_camera camera = gaussians_camera(WIDTH_PX, HEIGHT_PX, 40, FRONT, n % 5 == 4 ? 0.7 : 3);
+        ewa_gaussian_options options = options_of(n % 5 == 4);
+        if (n % 5 == 3) camera.projection = EWA_ORTHOGRAPHIC, camera.fx_px = camera.fy_px = 25;
+        if (n % 2) options.surface_depth = depth, options.surface_rgba = rgba;
+        if (n % 4 == 3) options.surface_coverage = coverage;
+        if (n % 3 != 1 || !(n % 2)) {
+            const double planes[3][4] = {{0.6, 0.1, -0.7, 0.3}, {-0.5, 1, 0.2, 0.4}, {0, 0, 1, -0.2}};
+            options.section_count = 1 + (uint32_t)n % 3;
+            memcpy(options.section_planes, planes, sizeof planes);
+        }
+        if (n % 7 == 2) options.depth = EWA_DEPTH_EXPECTED;
+        options.background[2] = 0.4f, options.background[3] = 0.5f;
+        assert_true(compare_planes(&b, &camera, &options, ALL & ~NORMAL) < UINT64_MAX);
+        const uint64_t with_normals = compare_planes(&b, &camera, &options, ALL);
+        assert_true(n % 2 || with_normals < UINT64_MAX);
+    }
+}
+
+/// Only those in a ball about the origin.
+static bool in_ball(const void *user, const double place_world[3], int32_t code) {
+    (void)code;
+    const double *radius = user;
+    return place_world[0] * place_world[0] + place_world[1] * place_world[1] + place_world[2] * place_world[2] < *radius * *radius;
+}
+
+/// Sets of which some Gaussians are hidden, and coloured by what is not theirs; both change from frame to frame.
+TEST_ON(test_looks, 2) {
+    enum { COUNT = 900 };
+    static const char *const tunings[] = {"", "page=5"};
+    for (int i = 0; i < 2; i++) {
+        OWNED(leave) both b = make(context, EWA_BACKEND_GL, tunings[i]);
+        ewa_gaussians set = gaussians_random(context, COUNT, 2, 7);
+        add(&b, &set);
+        const ewa_camera camera = gaussians_camera(60, 45, 40, FRONT, 3);
+        const ewa_gaussian_options options = options_of(false);
+        const uint64_t all = compare(&b, &camera, &options);
+        ewa_splats *whole = b.sets[0];
+        ewa_cloud *cloud = NULL;
+        uint8_t *codes;
+        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&codes), EWA_OK);
+        const double radii[] = {0.5, 0.9};
+        uint64_t shown[2];
+        for (int k = 0; k < 2; k++) {
+            ewa_splats *view;
+            assert_int_equal(ewa_splats_show(context, whole, in_ball, &radii[k], &view), EWA_OK);
+            b.sets[0] = view;
+            shown[k] = compare(&b, &camera, &options);
+            for (size_t c = 0; c < 3 * COUNT; c++) codes[c] = (uint8_t)(c * 7 + (size_t)k * 50);
+            ewa_splat_colors *colors;
+            assert_int_equal(ewa_splat_colors_create(whole, cloud, NULL, &colors), EWA_OK);
+            b.colors[0] = colors;
+            assert_int_equal(compare(&b, &camera, &options), shown[k]);
+            b.sets[0] = whole;
+            assert_int_equal(compare(&b, &camera, &options), all);
+            b.colors[0] = NULL;
+            ewa_splat_colors_destroy(&colors);
+            ewa_splats_destroy(&view);
+        }
+        assert_true(shown[0] > 10 && shown[0] < shown[1] && shown[1] < all);
+        ewa_cloud_destroy(&cloud);
+    }
+}
+
 /// What the device does not draw is drawn by the processor, and the next frame by the device again.
 TEST_ON(test_left_out, 1) {
     enum { WIDTH_PX = 64, HEIGHT_PX = 48, PIXELS = WIDTH_PX * HEIGHT_PX };
@@ -272,13 +370,12 @@ TEST_ON(test_left_out, 1) {
     ewa_gaussians set = gaussians_random(context, 500, 1, 5);
     add(&b, &set);
     const ewa_camera camera = gaussians_camera(WIDTH_PX, HEIGHT_PX, 40, FRONT, 3);
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 4; i++) {
         ewa_gaussian_options options = options_of(false);
         if (i == 1) options.order = EWA_ORDER_RAY;
-        if (i == 2) options.section_count = 1, options.section_planes[0][2] = 1;
-        if (i == 3) options.surface_depth = depth, options.surface_rgba = rgba;
-        if (i == 4) options.display = EWA_DISPLAY_ELLIPSOIDS;
-        assert_true((compare(&b, &camera, &options) == UINT64_MAX) == (i > 0));
+        if (i == 2) options.surface_depth = depth, options.surface_rgba = rgba;
+        if (i == 3) options.display = EWA_DISPLAY_ELLIPSOIDS;
+        assert_true((compare_planes(&b, &camera, &options, ALL) == UINT64_MAX) == (i > 0));
         ewa_renderer_info info = {.struct_size = sizeof info};
         const char *remark;
         ewa_gaussian_renderer_describe(b.gpu, &info, &remark);

@@ -34,7 +34,7 @@ static void compile(void) {
     assert_int_equal(system(command), 0);
 }
 
-static const ewa_gl_arithmetic arithmetics[] = {{true, true, true}, {false, false, false}};
+static const ewa_gl_arithmetic arithmetics[] = {{true, true, true, true}, {.fused = false}};
 
 TEST(test_passes) {
     // Normals, depth, materials, opacity, clip lines, near surfels, fine sums, rays.

@@ -57,7 +57,7 @@ static double measure_wait(ewa_gl *device) {
 
 /// Makes the set-up program of the pipeline as no cache has it; by the wall.
 static ewa_status measure_compiler(ewa_gl *device, double *took_s) {
-    const ewa_gl_arithmetic arithmetic = {true, true, true};
+    const ewa_gl_arithmetic arithmetic = {true, true, true, true};
     const ewa_gl_variant variant = {.pass = EWA_GL_SETUP};
     ewa_gl_source source;
     ewa_gl_variant_write(&arithmetic, &variant, &source);

@@ -11,6 +11,9 @@ layout(std430, binding = 0) readonly buffer TileBlock { uint tiles[]; };     // 
 layout(std430, binding = 1) readonly buffer RecordNumberBlock { uint numbers[]; }; // [pair]
 layout(std430, binding = 2) readonly buffer RecordBlock { vec4 records[]; };
 layout(std430, binding = 3) writeonly buffer ResultBlock { uint result[]; };
+#if AMONG
+layout(std430, binding = 4) readonly buffer SurfaceBlock { float surfaces[]; }; // planes: depth, rgba, coverage
+#endif
 
 layout(location = 0) uniform uint first_tile; // of the dispatch
 
@@ -20,6 +23,10 @@ shared uint batch_numbers[BATCH];
 #endif
 shared uint touching[16][BATCH / 32u]; // [block of 4x4 pixels] bits of splats
 shared uint ends[2], some_open, shown[16];
+
+#if AMONG
+float enter_depth, end_depth; // of the pixel's ray: what lies between counts
+#endif
 
 // How far an ellipse reaches to the right within rows; gaussian_draw.h.
 float side_of(float top, float bottom, float touch, float lean, float by, float limit, float root) {
@@ -48,8 +55,9 @@ void mark(uint slot, uvec2 tile_px, uvec2 quarter) {
 }
 
 #if DEEP
-// How a pixel's ray passes a splat: its distance in standard deviations squared, its depth there; whether that is ahead.
-bool closest(uint number, float u, float v, float limit, out float distance2, out float z) {
+// How a pixel's ray passes a splat: its distance in standard deviations squared, its depth there and the variance of that; whether
+// it is ahead.
+bool closest(uint number, float u, float v, float limit, out float distance2, out float z, out float variance) {
     vec4 p = records[number * RECORD_PARTS + 3u], q = records[number * RECORD_PARTS + 4u], r = records[number * RECORD_PARTS + 5u];
     vec3 g = vec3(wf_fma(u, p.x, wf_fma(v, p.y, p.z)), wf_fma(u, p.w, wf_fma(v, q.x, q.y)), wf_fma(u, q.z, wf_fma(v, q.w, r.x)));
     float length_ = r.y, lateral2 = wf_fma(g.x, g.x, wf_mul(g.y, g.y));
@@ -58,10 +66,11 @@ bool closest(uint number, float u, float v, float limit, out float distance2, ou
     z = g.z;
     if (orthographic != 0u) {
         ahead = lateral2 < limit;
+        variance = wf_div(1.0, wf_mul(length_, length_));
     } else {
         float square = wf_fma(g.z, g.z, lateral2), far2 = wf_mul(wf_mul(length_, length_), lateral2);
         ahead = far2 < wf_mul(limit, square) && 0.0 < g.z;
-        float variance = wf_div(1.0, square);
+        variance = wf_div(1.0, square);
         distance2 = wf_mul(far2, variance);
         z = wf_mul(wf_mul(length_, g.z), variance);
     }
@@ -70,10 +79,32 @@ bool closest(uint number, float u, float v, float limit, out float distance2, ou
 }
 #endif
 
+#if AMONG
+// Phi(t): src/volume/kernels_over.h.
+float share_below(float t) {
+    float x = wf_mul(wf_abs(t), SQRT_HALF), bell = wf_exp2(wf_mul(HALF_LOG2_E, wf_mul(t, t)));
+    float u = wf_div(1.0, wf_fma(x, 0.3275911, 1.0));
+    float series = wf_fma(u, 1.061405429, -1.453152027);
+    series = wf_fma(u, series, 1.421413741);
+    series = wf_fma(u, series, -0.284496736);
+    series = wf_fma(u, series, 0.254829592);
+    float beyond = wf_mul(0.5, wf_mul(wf_mul(u, series), bell));
+    return t < 0.0 ? wf_keep(-6.0 < t, beyond) : wf_sub(1.0, beyond);
+}
+
+// What of a splat lies between the ends of the pixel's ray.
+float share_within(float z, float variance) {
+    float deviation = wf_max(wf_sqrt(variance), THINNEST);
+    float share = share_below(wf_div(wf_sub(end_depth, z), deviation));
+    if (section_count == 0u) return share;
+    return wf_max(wf_sub(share, share_below(wf_div(wf_sub(enter_depth, z), deviation))), 0.0);
+}
+#endif
+
 // Whether a pixel whose centre is (x, y) shows a splat of the batch; sets its alpha and its depth.
 bool hit(uint slot, float x, float y, out float alpha, out float z) {
     vec4 a = batch[slot * 3u], b = batch[slot * 3u + 1u];
-    float u = wf_sub(x, a.x), v = wf_sub(y, a.y), limit = b.y, m2;
+    float u = wf_sub(x, a.x), v = wf_sub(y, a.y), limit = b.y, m2, variance = 0.0;
     bool inside;
     z = 0.0;
     alpha = 0.0;
@@ -83,7 +114,7 @@ bool hit(uint slot, float x, float y, out float alpha, out float z) {
 #if DOTS
     vec4 spot = records[number * RECORD_PARTS + 6u];
     if (0.0 < spot.x) {
-        bool ahead = closest(number, u, v, limit, m2, z);
+        bool ahead = closest(number, u, v, limit, m2, z, variance);
         float dot_x = wf_sub(u, spot.y), dot_y = wf_sub(v, spot.z), dot2 = wf_mul(spot.x, wf_fma(dot_x, dot_x, wf_mul(dot_y, dot_y)));
         float crossed2 = ahead && near_depth <= z ? m2 : INF;
         bool crossed = crossed2 <= dot2;
@@ -95,7 +126,7 @@ bool hit(uint slot, float x, float y, out float alpha, out float z) {
 #endif
 #if DEEP
     if (trained == 0u) {
-        inside = closest(number, u, v, limit, m2, z);
+        inside = closest(number, u, v, limit, m2, z, variance);
     } else
 #endif
     {
@@ -104,13 +135,16 @@ bool hit(uint slot, float x, float y, out float alpha, out float z) {
         inside = m2 < limit;
 #if DEEP
         float unused;
-        if (inside) closest(number, u, v, limit, unused, z);
+        if (inside) closest(number, u, v, limit, unused, z, variance);
 #endif
     }
     if (!inside) return false;
     alpha = wf_exp2(wf_fma(m2, HALF_LOG2_E, b.z));
     if (keep != 0u && !(minimum_alpha <= alpha)) return false;
     alpha = wf_min(alpha, MAX_ALPHA);
+#if AMONG
+    alpha = wf_mul(alpha, share_within(z, variance));
+#endif
     z = wf_add(z, 0.0);
     return true;
 }
@@ -129,20 +163,28 @@ float linear_of_display(float x) {
 }
 float straighten(float alpha) { return wf_keep(0.0 < alpha, wf_div(1.0, 0.0 < alpha ? alpha : 1.0)); }
 
-// The light of a pixel over what is behind it. `display`: some pixel of its block shows a splat.
-vec4 lay_over(vec3 light, float through, bool display) {
-    vec4 under = background, color;
+// What a pixel has composited.
+struct Light {
+    vec3 color;
+    float through, depth;
+    bool display; // some pixel of its block shows a splat
+};
+
+// The light of a pixel over what is behind it.
+vec4 lay_over(Light of, vec4 under) {
+    vec4 color;
+    float through = of.through;
     if (normals != 0u) {
-        for (int c = 0; c < 3; c++) color[c] = wf_fma(through, under[c], light[c]);
+        for (int c = 0; c < 3; c++) color[c] = wf_fma(through, under[c], of.color[c]);
         color.a = wf_fma(through, under.a, wf_sub(1.0, through));
         return color;
     }
     float inverse_ = straighten(under.a);
-    for (int c = 0; c < 3 && display; c++) under[c] = wf_mul(display_of_linear(wf_mul(under[c], inverse_)), under.a);
-    for (int c = 0; c < 3; c++) color[c] = wf_fma(through, under[c], light[c]);
+    for (int c = 0; c < 3 && of.display; c++) under[c] = wf_mul(display_of_linear(wf_mul(under[c], inverse_)), under.a);
+    for (int c = 0; c < 3; c++) color[c] = wf_fma(through, under[c], of.color[c]);
     color.a = wf_fma(through, under.a, wf_sub(1.0, through));
     inverse_ = straighten(color.a);
-    for (int c = 0; c < 3 && display; c++) color[c] = wf_mul(linear_of_display(wf_mul(color[c], inverse_)), color.a);
+    for (int c = 0; c < 3 && of.display; c++) color[c] = wf_mul(linear_of_display(wf_mul(color[c], inverse_)), color.a);
     return color;
 }
 
@@ -152,14 +194,96 @@ float camera_depth(float z) {
     return float(depth);
 }
 
-void write_pixel(uint pixel, vec4 color, float through, float depth) {
-    float opacity = wf_sub(1.0, through);
+// Writes what there is of a pixel; `depth` is in camera space.
+void write_planes(uint pixel, vec4 color, float depth, float coverage) {
     if (with_codes != 0u) result[pixel] = color_code(color);
     if (rgba_at >= 0)
         for (uint c = 0u; c < 4u; c++) result[uint(rgba_at) + pixel * 4u + c] = floatBitsToUint(color[c]);
+    if (depth_at >= 0) result[uint(depth_at) + pixel] = floatBitsToUint(depth);
+    if (coverage_at >= 0) result[uint(coverage_at) + pixel] = floatBitsToUint(coverage);
+}
+
+#if AMONG
+uint pixel_count() { return picture_px.x * picture_px.y; }
+float surface_depth(uint pixel) { return with_surface != 0u ? surfaces[pixel] : INF; }
+vec4 surface_color(uint pixel) {
+    uint at = pixel_count() + 4u * pixel;
+    return with_surface != 0u ? vec4(surfaces[at], surfaces[at + 1u], surfaces[at + 2u], surfaces[at + 3u]) : vec4(0.0);
+}
+
+// Sets where the pixel's ray begins and ends: set_bounds() of gaussian_draw.h, ewa_ray_sections_range().
+void set_bounds(uvec2 at, float depth, bool everything) {
+    double end = double(INF), enter = -double(INF), leave = double(INF);
+    if (with_surface != 0u && !everything && depth < INF) {
+        end = wd_div(double(depth), unit_camera);
+    }
+    precise double left = double(at.x) + 0.5LF - lens.z, up = double(at.y) + 0.5LF - lens.w;
+    double x = wd_div(left, lens.x), y = wd_div(up, lens.y);
+    for (uint i = 0u; i < section_count; i++) {
+        precise double across = sections[i].x * x, down = sections[i].y * y, lateral = across + down;
+        precise double ahead = lateral + sections[i].w, along = lateral + sections[i].z;
+        double start = orthographic != 0u ? ahead : sections[i].w, by = orthographic != 0u ? sections[i].z : along;
+        double z = wd_div(-start, by);
+        if (by > 0.0LF) {
+            if (z > enter) enter = z;
+        } else if (by < 0.0LF) {
+            if (z < leave) leave = z;
+        } else if (start < 0.0LF) {
+            enter = double(INF);
+            leave = -double(INF);
+        }
+    }
+    double last = wd_div(leave, unit_camera);
+    if (last < end) end = last;
+    enter_depth = float(wd_div(enter, unit_camera));
+    end_depth = float(end);
+}
+
+// The mean depth over a pixel that a surface covers a part of: expect() of gaussian_draw.h.
+float expect(float cover, float surface, float opacity, float sum, float past_opacity, float past) {
+    float part = wf_min(cover, 1.0), rest = wf_sub(1.0, part);
+    bool some = 0.0 < cover && surface < INF;
+    float own = wf_mul(some ? surface : 0.0, float(wd_div(1.0LF, unit_camera))), here = wf_mul(part, wf_fma(wf_sub(1.0, opacity), own, sum));
+    return some ? wf_div(wf_fma(rest, past, here), wf_fma(rest, past_opacity, part)) : wf_div(past, past_opacity);
+}
+
+// A pixel with a surface in it: resolve_with_surface() and store_geometry(). `ahead`: what lies before the surface; `everything`: where
+// that counts, by `twice`.
+void write_among(uint pixel, Light ahead, Light everything, bool twice) {
+    vec4 surface = surface_color(pixel), covered, color, past = background;
+    if (twice) past = lay_over(everything, background);
+    else past = lay_over(ahead, background);
+    float cover = surface.a, inverse_ = straighten(cover), own = surface_depth(pixel);
+    bool whole = 1.0 <= cover, none = cover <= 0.0;
+    float opacity = wf_sub(1.0, ahead.through), depth = ahead.depth;
+    float past_opacity = twice ? wf_sub(1.0, everything.through) : opacity;
+    float past_depth = twice ? everything.depth : expected != 0u ? depth : INF;
+    if (expected != 0u) depth = expect(cover, own, opacity, depth, past_opacity, past_depth);
+    for (int c = 0; c < 3; c++) surface[c] = wf_mul(surface[c], inverse_);
+    surface.a = 1.0;
+    covered = lay_over(ahead, surface);
+    for (int c = 0; c < 4; c++) {
+        color[c] = wf_fma(cover, wf_sub(covered[c], past[c]), past[c]);
+        color[c] = whole ? covered[c] : none ? past[c] : color[c];
+    }
+    opacity = whole ? opacity : wf_fma(cover, wf_sub(opacity, past_opacity), past_opacity);
+    float nearest = expected != 0u ? INF : camera_depth(depth), behind = expected != 0u ? INF : camera_depth(past_depth);
+    float coverage = with_coverage != 0u ? surfaces[5u * pixel_count() + pixel] : cover;
+    if (!(nearest < own)) nearest = own < behind && behind < INF ? behind : own;
+    if (coverage < 1.0) {
+        precise float rest = 1.0 - coverage, more = opacity * rest;
+        coverage = wf_add(coverage, more);
+    }
+    if (expected != 0u && opacity > 0.0) nearest = camera_depth(depth);
+    write_planes(pixel, color, nearest, coverage);
+}
+#endif
+
+// A pixel without surfaces.
+void write_pixel(uint pixel, Light of) {
+    float opacity = wf_sub(1.0, of.through), depth = of.depth;
     if (expected != 0u) depth = opacity > 0.0 ? wf_div(depth, opacity) : INF;
-    if (depth_at >= 0) result[uint(depth_at) + pixel] = floatBitsToUint(camera_depth(depth));
-    if (coverage_at >= 0) result[uint(coverage_at) + pixel] = floatBitsToUint(opacity);
+    write_planes(pixel, lay_over(of, background), camera_depth(depth), opacity);
 }
 
 // The first pair of a tile or of those behind it.
@@ -180,21 +304,16 @@ bool loops_go_on() {
     return turns == wanted;
 }
 
-void main() {
-    uint work = group_number(), tile = first_tile + work / 4u, thread = gl_LocalInvocationIndex;
-    // Two blocks of pixels lie next to each other in memory and in what a device runs together.
-    uint block = thread / 16u, in_block = thread % 16u;
-    uvec2 tile_px = uvec2(tile % tiles_per_row, tile / tiles_per_row) * TILE_SIDE, quarter = uvec2(work % 2u, work / 2u % 2u) * 4u;
-    uvec2 pixel = tile_px + 4u * (quarter + uvec2(block % 4u, block / 4u)) + uvec2(in_block % 4u, in_block / 4u);
-    bool inside = tile < tile_count && all(lessThan(pixel, picture_px)), open = inside;
-    uint pairs = pair_count <= pair_capacity ? pair_count : 0u;
-    if (thread < 2u) ends[thread] = first_pair(tile + thread, pairs);
+// Composites the splats [first, end) of a tile's list in a pixel. `half_`: what is left of the light where depth is noted. All of a
+// group call it.
+Light composite(uvec2 tile_px, uvec2 quarter, uvec2 pixel, bool inside, uint first, uint end, float half_) {
+    uint thread = gl_LocalInvocationIndex, block = thread / 16u;
+    float x = float(pixel.x) + 0.5, y = float(pixel.y) + 0.5;
+    Light of = Light(vec3(0.0), 1.0, expected != 0u ? 0.0 : INF, false);
+    bool open = inside;
+    barrier();
     if (thread < 128u) touching[thread / 8u][thread % 8u] = 0u;
     if (thread < 16u) shown[thread] = 0u;
-    barrier();
-    uint first = ends[0], end = ends[1];
-    float x = float(pixel.x) + 0.5, y = float(pixel.y) + 0.5, through = 1.0, depth = expected != 0u ? 0.0 : INF;
-    vec3 light = vec3(0.0);
     for (uint at = first; at < end; at += BATCH) {
         if (thread == 0u) some_open = 0u;
         barrier();
@@ -216,19 +335,64 @@ void main() {
                 bits &= bits - 1u;
                 float alpha, z;
                 if (!hit(slot, x, y, alpha, z)) continue;
-                float weight = wf_mul(through, alpha), rest = wf_sub(through, weight);
-                if (expected != 0u) depth = wf_fma(weight, z, depth);
-                else if (0.5 < through && rest <= 0.5) depth = z;
-                for (int c = 0; c < 3; c++) light[c] = wf_fma(weight, batch[slot * 3u + 2u][c + 1], light[c]);
-                through = rest;
+                float weight = wf_mul(of.through, alpha), rest = wf_sub(of.through, weight);
+                if (expected != 0u) of.depth = wf_fma(weight, z, of.depth);
+                else if (half_ < of.through && rest <= half_) of.depth = z;
+                for (int c = 0; c < 3; c++) of.color[c] = wf_fma(weight, batch[slot * 3u + 2u][c + 1], of.color[c]);
+                of.through = rest;
                 open = minimum_transmittance <= rest;
             }
         }
         barrier();
         if (thread < 128u) touching[thread / 8u][thread % 8u] = 0u;
     }
-    if (through < 1.0) atomicOr(shown[block], 1u);
     barrier();
-    if (inside) write_pixel(pixel.y * picture_px.x + pixel.x, lay_over(light, through, shown[block] != 0u), through, depth);
+    if (of.through < 1.0) atomicOr(shown[block], 1u);
+    barrier();
+    of.display = shown[block] != 0u;
+    return of;
+}
+
+#if AMONG
+shared uint edges[16]; // [block] whether a surface leaves a part of some pixel free
+#endif
+
+void main() {
+    uint work = group_number(), tile = first_tile + work / 4u, thread = gl_LocalInvocationIndex;
+    // Two blocks of pixels lie next to each other in memory and in what a device runs together.
+    uint block = thread / 16u, in_block = thread % 16u;
+    uvec2 tile_px = uvec2(tile % tiles_per_row, tile / tiles_per_row) * TILE_SIDE, quarter = uvec2(work % 2u, work / 2u % 2u) * 4u;
+    uvec2 pixel = tile_px + 4u * (quarter + uvec2(block % 4u, block / 4u)) + uvec2(in_block % 4u, in_block / 4u);
+    bool inside = tile < tile_count && all(lessThan(pixel, picture_px));
+    uint pairs = pair_count <= pair_capacity ? pair_count : 0u, place = pixel.y * picture_px.x + pixel.x;
+    if (thread < 2u) ends[thread] = first_pair(tile + thread, pairs);
+    barrier();
+    uint first = ends[0], end = ends[1];
+#if AMONG
+    float own = inside ? surface_depth(place) : INF, cover = inside ? surface_color(place).a : 0.0;
+    if (thread < 16u) edges[thread] = 0u;
+    if (thread == 0u) some_open = 0u;
+    barrier();
+    if (with_surface != 0u && cover < 1.0 && own < INF) {
+        edges[block] = 1u;
+        some_open = 1u;
+    }
+    barrier();
+    bool twice = edges[block] != 0u, some_twice = some_open != 0u;
+    Light everything = Light(vec3(0.0), 1.0, INF, false);
+    if (some_twice) {
+        set_bounds(pixel, own, true);
+        float left = wf_div(0.5, 1.0 <= cover ? 1.0 : wf_sub(1.0, cover));
+        everything = composite(tile_px, quarter, pixel, inside, first, end, 1.0 <= cover ? INF : left);
+    }
+    set_bounds(pixel, own, false);
+#endif
+    Light of = composite(tile_px, quarter, pixel, inside, first, end, 0.5);
+#if AMONG
+    if (inside && with_surface != 0u) write_among(place, of, everything, twice);
+    else if (inside) write_pixel(place, of);
+#else
+    if (inside) write_pixel(place, of);
+#endif
     if (!loops_go_on()) atomicAdd(stopped_count, 1u);
 }

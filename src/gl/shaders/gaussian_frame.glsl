@@ -14,7 +14,10 @@ layout(std140, binding = 0) uniform FrameBlock {
     float minimum_transmittance, near_depth;
     uint block_count, pad; // blocks of `visible_capacity` items
     vec4 background; // linear, premultiplied
-    double unit_camera;
+    uint with_surface, with_coverage, section_count, sections_pad; // `with_coverage`: the surfaces have a plane of it
+    double unit_camera, unit_pad;
+    dvec4 lens;        // of sections: fx, fy, cx, cy, px
+    dvec4 sections[MAX_SECTIONS]; // planes in camera space
 };
 
 // 0 when a frame begins but for `slot_count`.

@@ -8,6 +8,7 @@
 struct View {
     uint orthographic, trained, flat_, normals, keep;
     uint sh_degree, harmonic_count;
+    uint with_colors, with_lanes; // colours in place of those of packets; some splats are hidden
     float fx_px, fy_px, cx_px, cy_px, width_px, height_px, last_column, last_row;
     float turn[9], origin[3], eye[3], forward[3], slopes[4];
     float near, cutoff2, prefilter_px2, dot_px2, log2_min, minimum_alpha, set_unit;
@@ -25,6 +26,9 @@ layout(std430, binding = 4) writeonly buffer KeyBlock { uint keys[]; };         
 layout(std430, binding = 5) writeonly buffer RecordNumberBlock { uint numbers[]; };  // [slot]
 layout(std430, binding = 6) writeonly buffer RecordBlock { vec4 records[]; };
 layout(std430, binding = 7) writeonly buffer BoxBlock { uvec2 boxes[]; };          // [record] tiles: first, end
+
+layout(std430, binding = 9) readonly buffer ColorBlock { float colors[]; };        // [packet][colour][lane]
+layout(std430, binding = 10) readonly buffer LaneBlock { uint lanes[]; };          // [packet / 2], 16 bits each
 
 layout(location = 0) uniform uint first_segment;
 layout(location = 1) uniform uint end_segment;
@@ -334,7 +338,9 @@ vec3 color_of(Splat s) {
         for (int c = 0; c < 3; c++) sum[c] = wf_fma(y[k], harmonic(3u * k + uint(c)), sum[c]);
     float unit = number_of(HARMONIC_UNIT);
     for (int c = 0; c < 3; c++) {
-        float base = wf_fma(0.282094792, number_of(COLOR + uint(c)), 0.5);
+        float flat_color = number_of(COLOR + uint(c));
+        if (view.with_colors != 0u) flat_color = colors[(packet * 3u + uint(c)) * LANES + lane];
+        float base = wf_fma(0.282094792, flat_color, 0.5);
         color[c] = wf_max(wf_fma(unit, sum[c], base), 0.0);
     }
     return color;
@@ -359,8 +365,9 @@ vec3 normal_of(Splat s) {
 bool project(out Record r, out uvec2 box, out uint key, out bool near) {
     float opacity = number_of(OPACITY);
     Splat s;
-    bool shows = place_splat(opacity, s);
     near = false;
+    if (view.with_lanes != 0u && (lanes[packet / 2u] >> (packet % 2u * 16u + lane) & 1u) == 0u) return false;
+    bool shows = place_splat(opacity, s);
 #if DEEP
     if (view.trained == 0u && view.orthographic == 0u) near = s.place.z <= wf_mul(NEAR_REACHES, s.depth_reach);
 #endif

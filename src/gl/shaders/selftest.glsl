@@ -15,7 +15,7 @@ layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
 const double PER_2_30 = 9.31322574615478515625e-10LF;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x, at = i * 10u;
+    uint i = gl_GlobalInvocationID.x, at = i * 12u;
     Numbers v = inputs[i];
 #if NATIVE
     precise float fused = fma(v.a, v.b, v.c), quotient = v.n / v.m, root = sqrt(v.x), product = v.a * v.b,
@@ -33,6 +33,9 @@ void main() {
     results[at + 8u] = floatBitsToUint(small);
     precise double factor = double(v.b) + double(v.n) * PER_2_30, long_product = double(v.a) * factor;
     results[at + 9u] = floatBitsToUint(float(long_product));
+    precise double divisor = double(v.a) + double(v.m) * PER_2_30, wide_quotient = factor / divisor;
+    results[at + 10u] = unpackDouble2x32(wide_quotient).x;
+    results[at + 11u] = unpackDouble2x32(wide_quotient).y;
 #else
     results[at] = floatBitsToUint(wf_fma(v.a, v.b, v.c));
     results[at + 1u] = floatBitsToUint(wf_div(v.n, v.m));
@@ -49,6 +52,9 @@ void main() {
         b = 1.0LF - PER_2_30;
         other = 9007199254740992.0LF + 2.0LF * double(floor(v.s * 1048576.0));
     }
+    uvec2 quotient = unpackDouble2x32(wd_div(other, b));
+    results[at + 10u] = quotient.x;
+    results[at + 11u] = quotient.y;
     uvec2 bits = unpackDouble2x32(wd_fma(a, b, (i & 1u) != 0u ? left : other));
     results[at + 8u] = bits.x;
     results[at + 9u] = bits.y;

@@ -69,6 +69,19 @@ double wd_fma(double a, double b, double c) {
     return result;
 }
 
+// A quotient of doubles, correctly rounded where it is normal: the rest of a nearly right one is exact, and its quotient is smaller
+// than a last place. No quotient of two doubles is as near to the middle of two others as what that is rounded by.
+double wd_div(double a, double b) {
+    precise double q = a / b;
+#if !DOUBLE_QUOTIENTS
+    if (abs(q) < double(LARGEST) && abs(b) < double(LARGEST)) {
+        precise double rest = wd_fma(-q, b, a), more = rest / b, sum = q + more;
+        q = sum;
+    }
+#endif
+    return q;
+}
+
 float wf_fnma(float a, float b, float c) { return wf_fma(-a, b, c); }
 float wf_min(float a, float b) { return a < b ? a : b; }
 float wf_max(float a, float b) { return a > b ? a : b; }
