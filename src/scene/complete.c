@@ -242,8 +242,7 @@ static ewa_status make_dots(const ewa_scene *scene, ewa_completed *group) {
     return status;
 }
 
-/// Finds whether all of a group was photographed: estimated normals of depth cameras are those of noise, and the colours have
-/// the light of the place.
+/// Finds whether all of a group was photographed by depth cameras: the colours have the light of the place.
 static ewa_status find_photographed(ewa_completed *group) {
     bool all = all_have(group, EWA_COLOR);
     for (uint32_t i = 0; i < group->count && all; i++) {
