@@ -3,6 +3,7 @@
 //
 // Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE [gl]]]]]]. The file is seen
 // from +x, with y down; copies stand side by side and in rows, with harmonics of degree 3. "gl": by the graphics processor.
+// FILE "ball": 90,000 in a ball, where there is no file.
 #include "ewa/ewa.h"
 #include "gl/backends.h"
 #include "measure/measure.h"
@@ -38,12 +39,42 @@ static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies, uint32_
     return all;
 }
 
+static float random_share(uint64_t *random) {
+    *random = *random * 6364136223846793005u + 1442695040888963407u;
+    return (float)(*random >> 40) / (1 << 24);
+}
+
+/// Flat ones of many sizes in a ball of radius 1, about y = -1.
+static void make_ball(ewa_context *context, ewa_gaussians *set) {
+    enum { COUNT = 90000 };
+    uint64_t random = 1;
+    check(ewa_gaussians_create(context, COUNT, 0, set));
+    for (size_t i = 0; i < COUNT; i++) {
+        float *center = set->centers + 3 * i, squares = 2;
+        while (squares > 1) {
+            squares = 0;
+            for (int k = 0; k < 3; k++) center[k] = 2 * random_share(&random) - 1, squares += center[k] * center[k];
+        }
+        center[1] -= 1;
+        for (int k = 0; k < 3; k++) {
+            set->scales[3 * i + (size_t)k] = (k < 2 ? 0.02f : 0.002f) * random_share(&random);
+            set->harmonics[3 * i + (size_t)k] = 3 * random_share(&random) - 1.5f;
+        }
+        float *rotation = set->rotations + 4 * i;
+        rotation[0] = 0.5f, rotation[1 + i % 3] = 0.8660254f;
+        set->opacities[i] = 0.05f + 0.9f * random_share(&random);
+    }
+}
+
 int main(int argc, char **argv) {
     const uint32_t copies = argc > 2 ? (uint32_t)atoi(argv[2]) : 1;
     ewa_gaussians set;
     if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE [gl]]]]]]\n"), 2;
     ewa_context *context = make_context(argc > 5 ? (uint32_t)atoi(argv[5]) : 0);
-    check(ewa_gaussians_load(context, argv[1], &set, NULL));
+    if (strcmp(argv[1], "ball") == 0)
+        make_ball(context, &set);
+    else
+        check(ewa_gaussians_load(context, argv[1], &set, NULL));
     if (copies > 1) {
         ewa_gaussians all = copy_set(&set, copies, argc > 7 ? (uint32_t)atoi(argv[7]) : DEGREE);
         ewa_gaussians_free(&set);

@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/.."
 folder=${1:-build/release}
 ewa=$folder/cli/ewa
-tests="gpu_bytes gpu_device gpu_fallback gpu_frame gpu_masks gpu_raster gpu_shaders gpu_sources cli_gpu"
+tests="gpu_bytes gpu_device gpu_fallback gpu_frame gpu_gaussians gpu_masks gpu_raster gpu_shaders gpu_sort gpu_sources cli_gpu"
 
 missing=
 for tool in cc:gcc cmake:cmake ninja:ninja-build pkg-config:pkg-config; do
@@ -26,7 +26,7 @@ if [ -n "$missing" ]; then
     exit 1
 fi
 
-targets="ewa gpu_probe"
+targets="ewa gpu_probe measure_gaussians"
 for test in $tests; do targets="$targets test_$test"; done
 {
     [ -f "$folder/CMakeCache.txt" ] || cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release
@@ -98,6 +98,17 @@ EWA_GL_TUNING=unit=256 && bench "Units of 256 splats (\`EWA_GL_TUNING=unit=256\`
 unset EWA_GL_TUNING
 bench "All culled" --scene culled --splats $splats --size 64x64
 for count in $more; do bench "$count surfels" --splats "$count" --size $size --pixels 9 --frames 5; done
+
+echo "### Gaussians"
+echo
+echo "Eleven balls of 90,000 Gaussians of degree 3 (of software one); GAUSSIANS=FILE takes a file instead."
+echo
+measure=$folder/measure/measure_gaussians copies=11
+[ "$software" = 0 ] || copies=1
+for by in "" gl; do
+    # shellcheck disable=SC2086
+    fenced "$measure" "${GAUSSIANS:-ball}" $copies ${size%x*} ${size#*x} 0 0 3 $by
+done
 
 echo "### The paper's table 1"
 echo

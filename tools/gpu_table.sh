@@ -4,7 +4,6 @@
 #
 # Prints table 1 of "Perspective Accurate Splatting" with this machine's figures beside the paper's: million splats per second,
 # of two sizes of picture, one pass and three: gpu_table.sh EWA [SPLATS [BACKEND...]]. On software, 20000 splats take a minute.
-# Then, where GAUSSIANS names a file and measure_gaussians is built, what eleven copies of it take by the processor and the device.
 set -eu
 ewa=$1
 splats=${2:-1000000}
@@ -27,11 +26,3 @@ for backend in "$@"; do
 done
 echo "| the paper, Cg | 2.9 | 1.4 | 2.8 | 1.2 |"
 echo "| the paper, assembler | 11.2 | 3.1 | 10.4 | 2.8 |"
-
-measure=$(dirname "$ewa")/../measure/measure_gaussians
-[ -n "${GAUSSIANS:-}" ] && [ -x "$measure" ] || exit 0
-for backend in "" gl; do
-    echo
-    # shellcheck disable=SC2086
-    "$measure" "$GAUSSIANS" ${COPIES:-11} 1280 1024 0 0 3 $backend
-done
