@@ -21,6 +21,7 @@ typedef struct ewa_lod_appearance {
     ewa_status (*paint)(const void *user, ewa_cloud **cloud);
     const void *user; ///< `user_bytes` bytes that say all that both do, and are copied
     size_t user_bytes;
+    bool filtered; ///< `place` takes some of what is sampled alike: what their kernels sum up to is theirs, not the file's
 } ewa_lod_appearance;
 
 /// As ewa_lod_scene_render(), with octrees looking as `appearances` [scene->lod_count] say; NULL, as a whole or one of them:

@@ -127,8 +127,11 @@ static ewa_status gather_points(ewa_lod *lod, const ewa_lod_node *node, const ui
 }
 
 /// Changes a node's points as the appearance says, before what they lack is estimated, or afterwards.
-static ewa_status place(const ewa_lod_appearance *appearance, ewa_cloud **cloud) {
-    return appearance->place ? appearance->place(appearance->user, cloud) : EWA_OK;
+static ewa_status place(const ewa_lod_appearance *appearance, ewa_cloud **cloud, bool *thinned) {
+    const uint64_t count = ewa_cloud_point_count(*cloud);
+    if (appearance->place) EWA_TRY(appearance->place(appearance->user, cloud));
+    *thinned = appearance->filtered && ewa_cloud_point_count(*cloud) < count;
+    return EWA_OK;
 }
 
 static ewa_status paint(const ewa_lod_appearance *appearance, ewa_cloud **cloud) {
@@ -137,12 +140,12 @@ static ewa_status paint(const ewa_lod_appearance *appearance, ewa_cloud **cloud)
 
 /// Makes surfels of a node, of its cloud.
 static ewa_status make_surfels(const ewa_lod *lod, const ewa_lod_appearance *appearance, const ewa_cloud *cloud, double radius_scale,
-                               ewa_surfels **surfels) {
+                               bool thinned, ewa_surfels **surfels) {
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
     options.radius_scale = radius_scale * appearance->radius_scale;
-    // What the file says of its surface no longer holds where it is pressed together.
-    const double said = ewa_cell_is_similar(appearance->to_world) ? lod->levels.unit_coverage * options.radius_scale * options.radius_scale : 0;
+    // What the file says of its surface no longer holds where it is pressed together, or where a filter takes some of it.
+    const double said = ewa_cell_is_similar(appearance->to_world) && !thinned ? lod->levels.unit_coverage * options.radius_scale * options.radius_scale : 0;
     return ewa_surfels_create_covering(cloud, &options, said, surfels);
 }
 
@@ -152,9 +155,10 @@ static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const e
     ewa_cloud *cloud = NULL;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
+    bool thinned = false;
     ewa_status status = fetch_nodes(lod, how, file_nodes, count);
     if (status == EWA_OK) status = gather_points(lod, node, file_nodes, count, &cloud);
-    if (status == EWA_OK) status = place(how->appearance, &cloud);
+    if (status == EWA_OK) status = place(how->appearance, &cloud, &thinned);
     if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
         status = ewa_cloud_estimate(&cloud, &options);
     if (status == EWA_OK && !lod->has_surfels)
@@ -166,7 +170,7 @@ static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const e
         if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, NULL);
     }
     if (status == EWA_OK) status = paint(how->appearance, &cloud);
-    if (status == EWA_OK) status = make_surfels(lod, how->appearance, cloud, 1, surfels);
+    if (status == EWA_OK) status = make_surfels(lod, how->appearance, cloud, 1, thinned, surfels);
     ewa_cloud_destroy(&cloud);
     return status;
 }
@@ -285,11 +289,12 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
             status = ewa_fail(lod->context, EWA_ERROR_FORMAT,
                               "the surfels of node %d-%d-%d-%d are damaged: %s", node->key.level,
                               node->key.cell[0], node->key.cell[1], node->key.cell[2], pages[i].fault);
-        if (status == EWA_OK) status = place(how->appearance, &pages[i].cloud);
+        bool thinned = false;
+        if (status == EWA_OK) status = place(how->appearance, &pages[i].cloud, &thinned);
         if (status == EWA_OK) status = paint(how->appearance, &pages[i].cloud);
         if (status == EWA_OK)
             status = make_surfels(lod, how->appearance, pages[i].cloud, (double)lod->levels.pages[node->page].radius_scale,
-                                  &surfels[i]);
+                                  thinned, &surfels[i]);
         // Beyond the root nothing represents it (cut.c).
         if (status == EWA_OK && nodes[i] == 0) status = ewa_levels_make(surfels[i], EWA_MAX_LEVELS);
         ewa_release(lod->context, pages[i].scratch, pages[i].scratch_bytes, 1);

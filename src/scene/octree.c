@@ -170,6 +170,7 @@ ewa_status ewa_scene_octree_appearance(const ewa_scene *scene, uint32_t index, c
     }
     memcpy(appearance->to_world, asset->to_world, sizeof appearance->to_world);
     appearance->radius_scale = instance->radius_scale * scene->options.surfels.radius_scale;
+    appearance->filtered = asset->filter.term_count > 0;
     appearance->place = place;
     appearance->paint = paint;
     appearance->user = change;

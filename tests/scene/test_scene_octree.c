@@ -270,6 +270,30 @@ TEST_ON(test_filters, 2) {
     for (int i = 0; i < PIXELS; i++) assert_true(isinf(first.depth[i]));
 }
 
+/// Of points that a filter takes here and there, what they sum up to is theirs: they cover as much as those of a cloud.
+TEST_ON(test_few_of_many, 2) {
+    static const char strewn_points[] = "strewn.ply", strewn_file[] = "strewn.copc.laz";
+    static const char *const names[] = {strewn_points};
+    ewa_cloud *made = lod_ground(context, 0, POINTS, (lod_look){true, true});
+    void *classes = NULL;
+    assert_int_equal(ewa_cloud_add(made, "classification", EWA_U8, 1, &classes), EWA_OK);
+    for (uint64_t i = 0; i < POINTS; i++) ((uint8_t *)classes)[i] = i % 16 ? 2 : 9;
+    WITH_DEFAULTS(ewa_estimate_options, estimate);
+    assert_int_equal(ewa_cloud_estimate(&made, &estimate), EWA_OK);
+    lod_save(made, strewn_points);
+    assert_int_equal(lod_build(context, names, 1, strewn_file, NULL, NULL), EWA_OK);
+    ewa_filter filter = {.term_count = 0};
+    assert_int_equal(ewa_filter_add(&filter, "classification = 9", NULL), EWA_OK);
+    ewa_asset_options options = asset_options(NULL);
+    options.filter = &filter;
+    OWNED(ewa_scene_destroy)
+    ewa_scene *octree = make_scene(context, strewn_file, &options), *cloud = make_scene(context, strewn_points, &options);
+    const ewa_camera camera = place(cloud);
+    draw(context, cloud, &camera, 0, &first);
+    draw(context, octree, &camera, 16, &second);
+    hold_like("strewn", &first, &second, 36);
+}
+
 /// What represents points is coloured by their attributes: like the cloud, each class in its own colour, the same bytes for threads.
 TEST(test_attributes_of_levels) {
     static const char *const words[] = {"intensity", "classification"};
