@@ -341,6 +341,17 @@ static ewa_status check_counts(ewa_gl_gaussians *of, const frame *f, const uint3
                     of->device->facts.renderer, counts[STOPPED_COUNT]);
 }
 
+/// Normals: the surface's where it gave the depth, as store_geometry() of src/volume has it; 0 elsewhere. Frames
+/// with normals have depths.
+static void set_normals(const frame *f) {
+    const ewa_volume_target *to = &f->job->target;
+    const ewa_surface_planes *surface = &to->surface;
+    for (size_t i = 0; i < f->pixel_count; i++) {
+        const bool own = surface->normal && (f->job->view.expected || to->depth[i] == surface->depth[i]);
+        for (size_t c = 0; c < 3; c++) to->normal[3 * i + c] = own ? surface->normal[3 * i + c] : 0;
+    }
+}
+
 static void copy_planes(const frame *f, const uint8_t *from) {
     const ewa_volume_target *to = &f->job->target;
     const size_t pixels = f->pixel_count, word = sizeof(uint32_t);
@@ -348,7 +359,7 @@ static void copy_planes(const frame *f, const uint8_t *from) {
     if (to->rgba) memcpy(to->rgba, from + (size_t)f->rgba_at * word, 4 * pixels * word);
     if (to->depth) memcpy(to->depth, from + (size_t)f->depth_at * word, pixels * word);
     if (to->coverage) memcpy(to->coverage, from + (size_t)f->coverage_at * word, pixels * word);
-    if (to->normal) memset(to->normal, 0, 3 * pixels * word);
+    if (to->normal) set_normals(f);
 }
 
 /// Fetches counts and, unless it has to be drawn again, pixels.

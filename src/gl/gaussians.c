@@ -15,7 +15,6 @@ static const char *refusal_of(const ewa_gaussian_job *job) {
     if (!job->mixture->splats_count) return "nothing blends but what is drawn by the CPU";
     if (job->mixture->volume_count) return "Gaussians among volumes are drawn by the CPU";
     if (!job->view.by_center) return "Gaussians in the order of rays are drawn by the CPU";
-    if (job->view.with_surface && (job->target.normal || job->view.normals)) return "normals of Gaussians among surfaces are drawn by the CPU";
     return NULL;
 }
 

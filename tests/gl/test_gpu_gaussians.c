@@ -283,8 +283,9 @@ static void make_surfaces(uint32_t width_px, uint32_t height_px, float *depth, f
 /// Among surfaces, cut by section planes, and both; 2D ones, without perspective, by rays at the eye.
 TEST_ON(test_among, 2) {
     enum { WIDTH_PX = 70, HEIGHT_PX = 45, PIXELS = WIDTH_PX * HEIGHT_PX };
-    static float depth[PIXELS], rgba[4 * PIXELS], coverage[PIXELS];
+    static float depth[PIXELS], rgba[4 * PIXELS], coverage[PIXELS], normal[3 * PIXELS];
     make_surfaces(WIDTH_PX, HEIGHT_PX, depth, rgba, coverage);
+    for (int i = 0; i < 3 * PIXELS; i++) normal[i] = (float)(i % 7) / 7;
     OWNED(leave) both b = {.set_count = 0};
     for (int n = 0; n < 20; n++) {
         if (n % 10 == 0) {
@@ -310,9 +311,10 @@ TEST_ON(test_among, 2) {
         }
         if (n % 7 == 2) options.depth = EWA_DEPTH_EXPECTED;
         options.background[2] = 0.4f, options.background[3] = 0.5f;
+        if (n % 2 && n % 3) options.surface_normal = normal;
         assert_true(compare_planes(&b, &camera, &options, ALL & ~NORMAL) < UINT64_MAX);
-        const uint64_t with_normals = compare_planes(&b, &camera, &options, ALL);
-        assert_true(n % 2 || with_normals < UINT64_MAX);
+        assert_true(compare_planes(&b, &camera, &options, ALL) < UINT64_MAX);
+        assert_true(compare_planes(&b, &camera, &options, NORMAL) < UINT64_MAX);
     }
 }
 
@@ -364,17 +366,15 @@ TEST_ON(test_looks, 2) {
 
 /// What the device does not draw is drawn by the processor, and the next frame by the device again.
 TEST_ON(test_left_out, 1) {
-    enum { WIDTH_PX = 64, HEIGHT_PX = 48, PIXELS = WIDTH_PX * HEIGHT_PX };
-    static float rgba[4 * PIXELS], depth[PIXELS];
+    enum { WIDTH_PX = 64, HEIGHT_PX = 48 };
     OWNED(leave) both b = make(context, EWA_BACKEND_GL, "");
     ewa_gaussians set = gaussians_random(context, 500, 1, 5);
     add(&b, &set);
     const ewa_camera camera = gaussians_camera(WIDTH_PX, HEIGHT_PX, 40, FRONT, 3);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         ewa_gaussian_options options = options_of(false);
         if (i == 1) options.order = EWA_ORDER_RAY;
-        if (i == 2) options.surface_depth = depth, options.surface_rgba = rgba;
-        if (i == 3) options.display = EWA_DISPLAY_ELLIPSOIDS;
+        if (i == 2) options.display = EWA_DISPLAY_ELLIPSOIDS;
         assert_true((compare_planes(&b, &camera, &options, ALL) == UINT64_MAX) == (i > 0));
         ewa_renderer_info info = {.struct_size = sizeof info};
         const char *remark;
