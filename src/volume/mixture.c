@@ -66,6 +66,7 @@ static ewa_status make_volumes(ewa_gaussian_job *job, const ewa_camera *camera,
         chosen[i].section_count = options->section_count;
         status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i],
                                        volume->stats != NULL, &job->volumes[i]);
+        if (status == EWA_OK) status = ewa_volume_frame_reserve(volume->renderer, &job->volumes[i]);
         job->volumes[i].job.target = job->target;
     }
     return status;

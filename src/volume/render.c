@@ -5,6 +5,7 @@
 // src/reference/volume.c.
 #include "volume/render.h"
 #include "base/base.h"
+#include "volume/backend.h"
 #include "volume/options.h"
 
 struct ewa_volume_renderer {
@@ -16,6 +17,11 @@ struct ewa_volume_renderer {
     ewa_point_filter filters[EWA_FILTER_COUNT];
     ewa_footprint_table table;
     ewa_volume_scratch *scratch; ///< one per worker
+    const ewa_volume_backend *backend; ///< NULL: none
+    void *backend_state;
+    bool used_backend; ///< for the last frame
+    ewa_volume_stats device_stats; ///< what it counted then
+    char remark[160];  ///< why it was, or was not
 };
 
 ewa_status ewa_volume_renderer_create(ewa_context *context, ewa_volume_renderer **renderer) {
@@ -42,6 +48,7 @@ void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer) {
     if (!renderer || !*renderer) return;
     ewa_volume_renderer *old = *renderer;
     ewa_context *context = old->context;
+    if (old->backend) old->backend->destroy(context, old->backend_state);
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++)
         ewa_volume_scratch_free(context, &old->scratch[i]);
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
@@ -51,13 +58,23 @@ void ewa_volume_renderer_destroy(ewa_volume_renderer **renderer) {
     *renderer = NULL;
 }
 
+void ewa_volume_renderer_use(ewa_volume_renderer *renderer, const ewa_volume_backend *backend, void *state) {
+    renderer->backend = backend, renderer->backend_state = state;
+}
+
+bool ewa_volume_renderer_describe(const ewa_volume_renderer *renderer, ewa_renderer_info *info, const char **remark) {
+    *remark = renderer->remark;
+    if (renderer->used_backend) renderer->backend->describe(renderer->backend_state, info);
+    return renderer->used_backend;
+}
+
 void ewa_volume_frame_measure(const ewa_volume_renderer *renderer, const ewa_volume_frame *frame,
                               ewa_volume_stats *stats) {
     *stats = (ewa_volume_stats){.voxel_count = frame->job.level->voxel_count,
                                 .culled_count = renderer->bins.culled_voxel_count,
                                 .near_count = renderer->near.count,
                                 .bin_s = (frame->binned_s - frame->start_s) * renderer->worker_count};
-    for (uint32_t i = 0; i < renderer->worker_count; i++) {
+    for (uint32_t i = 0; i < renderer->worker_count && !renderer->used_backend; i++) {
         const ewa_volume_scratch *s = &renderer->scratch[i];
         stats->hidden_count += s->hidden_count;
         stats->splat_count += s->splat_count;
@@ -66,6 +83,11 @@ void ewa_volume_frame_measure(const ewa_volume_renderer *renderer, const ewa_vol
         stats->points_s += s->points_s;
         stats->splats_s += s->splats_s;
         stats->resolve_s += s->resolve_s;
+    }
+    if (renderer->used_backend) {
+        const ewa_volume_stats *s = &renderer->device_stats;
+        stats->splat_count = s->splat_count, stats->point_count = s->point_count;
+        stats->setup_s = s->setup_s, stats->points_s = s->points_s, stats->splats_s = s->splats_s;
     }
     const uint64_t drawn = stats->splat_count + stats->point_count;
     if (drawn) stats->point_share = (double)stats->point_count / (double)drawn;
@@ -89,6 +111,7 @@ ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels
     ewa_context *context = renderer->context;
     const ewa_voxel_level *level = &voxels->levels[options->level];
     frame->start_s = ewa_now_s();
+    renderer->used_backend = false;
     ewa_grid_view_make(&frame->grid, level->index_to_world, voxels->info.spacing_world, camera, options);
     ewa_volume_slices_make(&frame->slices, level, &frame->grid, options);
     ewa_volume_shading_make(options, &frame->shading);
@@ -111,10 +134,29 @@ ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels
     if (status == EWA_OK)
         status = ewa_near_list_fill(context, &renderer->near, renderer->kernels, &frame->job.view, level,
                                     &frame->grid, &renderer->bins, camera);
-    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = ewa_volume_scratch_reserve(context, &renderer->scratch[i], &frame->job);
     frame->binned_s = ewa_now_s();
     return status;
+}
+
+ewa_status ewa_volume_frame_reserve(ewa_volume_renderer *renderer, const ewa_volume_frame *frame) {
+    for (uint32_t i = 0; i < renderer->worker_count; i++)
+        EWA_TRY(ewa_volume_scratch_reserve(renderer->context, &renderer->scratch[i], &frame->job));
+    return EWA_OK;
+}
+
+/// Draws a frame that is set up, by the back end or the processor.
+static ewa_status draw_frame(ewa_volume_renderer *renderer, const ewa_voxels *voxels, ewa_volume_frame *frame) {
+    const ewa_volume_backend *backend = renderer->backend;
+    if (backend)
+        EWA_TRY(backend->draw(renderer->backend_state, voxels, frame, &renderer->device_stats, &renderer->used_backend, renderer->remark,
+                              sizeof renderer->remark));
+    if (renderer->used_backend) return EWA_OK;
+    const double start_s = ewa_now_s();
+    EWA_TRY(ewa_volume_frame_reserve(renderer, frame));
+    EWA_TRY(ewa_parallel_stoppable(renderer->context, "volume", ewa_volume_tile_draw, &frame->job,
+                                   ewa_tiles_count(&renderer->bins.tiles)));
+    if (backend) backend->learn(renderer->backend_state, ewa_now_s() - start_s);
+    return EWA_OK;
 }
 
 ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *voxels,
@@ -134,8 +176,7 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     job->view.with_depth = frame->depth || frame->normal;
     const ewa_surface_planes surface = EWA_SURFACE_PLANES_OF(&chosen);
     ewa_volume_target_set(&job->target, camera, frame, &surface, chosen.background);
-    EWA_TRY(ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, job,
-                                   ewa_tiles_count(&renderer->bins.tiles)));
+    EWA_TRY(draw_frame(renderer, voxels, &drawn));
     if (stats) ewa_volume_frame_measure(renderer, &drawn, stats);
     return EWA_OK;
 }

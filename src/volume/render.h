@@ -29,6 +29,9 @@ ewa_status ewa_volume_frame_make(ewa_volume_renderer *renderer, const ewa_voxels
                                  const ewa_camera *camera, const ewa_volume_options *options, bool with_times,
                                  ewa_volume_frame *frame);
 
+/// Makes room for the processor to draw a frame that is set up. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_volume_frame_reserve(ewa_volume_renderer *renderer, const ewa_volume_frame *frame);
+
 /// What a frame that was drawn took, up to now.
 void ewa_volume_frame_measure(const ewa_volume_renderer *renderer, const ewa_volume_frame *frame,
                               ewa_volume_stats *stats);

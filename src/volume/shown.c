@@ -158,6 +158,7 @@ ewa_status ewa_voxels_show(ewa_context *context, const ewa_voxels *voxels, ewa_p
     ewa_voxels *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->serial = ewa_serial_next(context);
     made->level_count = voxels->level_count;
     made->color_scale = voxels->color_scale;
     made->info = voxels->info;

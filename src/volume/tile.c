@@ -68,15 +68,13 @@ void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch) 
     for (int i = 0; i < 2; i++) ewa_buffer_free(context, &scratch->layers[i]);
 }
 
-/// Where the rays of a tile's pixels end, at the surfaces unless everything counts or where section planes leave
-/// nothing, and where these begin; +infinity outside of the picture.
-static void set_bounds(const ewa_volume_job *job, ewa_volume_tile *tile, bool everything) {
+void ewa_volume_tile_bounds(const ewa_volume_job *job, int32_t x_px, int32_t y_px, bool everything, float *ends, float *begins) {
     const double unit = job->grid->unit_camera;
     for (uint32_t row = 0; row < EWA_VOLUME_TILE_PX; row++)
         for (uint32_t column = 0; column < EWA_VOLUME_TILE_PX; column++) {
             const size_t block = (size_t)(row / 4) * EWA_VOLUME_ROW_BLOCKS + column / 4;
             const size_t at = 16 * block + 4 * (row % 4) + column % 4;
-            const uint32_t x = (uint32_t)tile->x_px + column, y = (uint32_t)tile->y_px + row;
+            const uint32_t x = (uint32_t)x_px + column, y = (uint32_t)y_px + row;
             const bool inside = x < job->target.width_px && y < job->target.height_px;
             const size_t pixel = (size_t)y * job->target.width_px + x;
             double end = INFINITY;
@@ -84,10 +82,10 @@ static void set_bounds(const ewa_volume_job *job, ewa_volume_tile *tile, bool ev
             if (job->sections.count) {
                 double enter, leave;
                 ewa_ray_sections_range(&job->sections, x + 0.5, y + 0.5, &enter, &leave);
-                tile->enter[at] = (float)(enter / unit);
+                begins[at] = (float)(enter / unit);
                 end = fmin(end, leave / unit);
             }
-            tile->surface[at] = (float)end;
+            ends[at] = (float)end;
         }
 }
 
@@ -119,7 +117,7 @@ static void start_tile(const ewa_volume_job *job, ewa_volume_scratch *scratch, u
     for (uint32_t i = 0; i < tile->pages.free_count; i++)
         tile->pages.free[i] = tile->pages.free_count - 1 - i; // the first ones first: they stay in the cache
     job->kernels->clear(tile);
-    if (job->view.with_surface) set_bounds(job, tile, everything);
+    if (job->view.with_surface) ewa_volume_tile_bounds(job, tile->x_px, tile->y_px, everything, tile->surface, tile->enter);
     // What lies outside of the picture needs nothing more.
     memset(tile->hidden, 1, sizeof tile->hidden);
     for (uint32_t row = 0; 4 * row < place.height_px; row++)

@@ -46,6 +46,10 @@ void ewa_volume_scratch_free(ewa_context *context, ewa_volume_scratch *scratch);
 ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *job, uint32_t index,
                                   uint32_t worker, bool everything, const ewa_volume_layers **layers);
 
+/// Sets where the rays of a tile's pixels end, at the surfaces unless everything counts or where section planes leave nothing, and
+/// where these let them begin: [block][16] depths, +infinity outside of the picture. `begins` only with section planes.
+void ewa_volume_tile_bounds(const ewa_volume_job *job, int32_t x_px, int32_t y_px, bool everything, float *ends, float *begins);
+
 /// Draws tile `index` of an ewa_volume_job (an ewa_task).
 void ewa_volume_tile_draw(void *job, uint32_t index, uint32_t worker);
 

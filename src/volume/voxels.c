@@ -377,6 +377,7 @@ ewa_status ewa_voxels_create(const ewa_volume *volume, const ewa_transfer *trans
     ewa_voxels *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
+    made->serial = ewa_serial_next(context);
     made->level_count = chosen.level_count;
     made->color_scale = color_scale(transfer);
     memcpy(made->levels[0].dims, volume->dims, sizeof made->levels[0].dims);

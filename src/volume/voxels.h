@@ -39,6 +39,7 @@ ewa_status ewa_voxel_level_allocate(ewa_context *context, ewa_voxel_level *level
 
 struct ewa_voxels {
     ewa_context *context;
+    uint64_t serial; ///< another one of each
     uint32_t level_count;
     ewa_voxel_level levels[EWA_MAX_VOLUME_LEVELS];
     double color_scale;
