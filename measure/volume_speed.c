@@ -5,10 +5,11 @@
 // 400x400, transparent and nearly opaque, seen as VTK frames it (its sphere in 30 degrees) and from near;
 // then with walls that take up 1 to 100 % of 256^3. Prints the tables of docs/volume.md.
 //
-// measure_volume_speed [SIDE [EXTINCTION [near]]]
+// measure_volume_speed [SIDE [EXTINCTION [whole|near [gl]]]]: gl: by the device, whose times the stages are
 // measure_volume_speed occupied PERCENT EXTINCTION [VOLUME.nrrd]: one row of the curve; saves its volume
 #include "base/base.h"
 #include "ewa/ewa.h"
+#include "gl/backends.h"
 #include "measure/measure.h"
 #include "volume/scene.h"
 
@@ -37,6 +38,7 @@ typedef struct scene {
     float extinction; ///< per voxel
     bool near;
     const char *save_path; ///< of the volume, or NULL
+    bool by_device;
 } scene;
 
 /// What came of it.
@@ -86,6 +88,10 @@ static figures measure(ewa_context *context, const scene *at) {
     ewa_volume_renderer *renderer;
     uint8_t *pixels = malloc(4 * (size_t)at->side_px * at->side_px);
     if (!pixels || ewa_volume_renderer_create(context, &renderer) != EWA_OK) exit(1);
+    ewa_renderer *surfaces = NULL;
+    if (at->by_device && (ewa_renderer_create_on(context, EWA_BACKEND_GL, &surfaces) != EWA_OK ||
+                          ewa_gl_volume_attach(context, surfaces, renderer) != EWA_OK))
+        exit(1);
     const ewa_frame frame = {.rgba8 = pixels};
     WITH_DEFAULTS(ewa_volume_options, options);
     options.shading = EWA_SHADING_PHONG;
@@ -101,6 +107,7 @@ static figures measure(ewa_context *context, const scene *at) {
     qsort(times_s, FRAMES, sizeof *times_s, compare_doubles);
     out.frame_s = times_s[FRAMES / 4];
     ewa_volume_renderer_destroy(&renderer);
+    ewa_renderer_destroy(&surfaces);
     free(pixels);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
@@ -108,14 +115,15 @@ static figures measure(ewa_context *context, const scene *at) {
 }
 
 static void print_stages(const ewa_volume_stats *stats) {
+    printf("<!-- in tiles: %.2f M splats, %.2f M points -->\n", (double)stats->splat_count * 1e-6, (double)stats->point_count * 1e-6);
     printf(
         "<!-- thread ms: bin %.1f, set-up %.1f, points %.1f, splats %.1f, resolve %.1f; hidden %.2f M -->\n",
         stats->bin_s * 1e3, stats->setup_s * 1e3, stats->points_s * 1e3, stats->splats_s * 1e3,
         stats->resolve_s * 1e3, (double)stats->hidden_count * 1e-6);
 }
 
-static void print_size(ewa_context *context, uint32_t side, float extinction, bool near, uint32_t side_px) {
-    const scene at = {side, side_px, tenth, extinction, near, NULL};
+static void print_size(ewa_context *context, uint32_t side, float extinction, bool near, uint32_t side_px, bool by_device) {
+    const scene at = {side, side_px, tenth, extinction, near, NULL, by_device};
     const figures out = measure(context, &at);
     const double voxel_count = (double)out.info.occupied_count;
     printf("| %u³ | %g | %s, %u px | %.2f M (%.1f %%) | %.0f %% | %.1f | %.1f | %.1f | %.0f ms |\n", side,
@@ -127,19 +135,19 @@ static void print_size(ewa_context *context, uint32_t side, float extinction, bo
 
 static void print_sizes(ewa_context *context) {
     for (int near = 0; near < 2; near++) {
-        print_size(context, 256, 0.02f, near, SIDE_PX);
-        print_size(context, 256, 1, near, SIDE_PX);
+        print_size(context, 256, 0.02f, near, SIDE_PX, false);
+        print_size(context, 256, 1, near, SIDE_PX, false);
     }
     // Voxels as large on the screen whatever their number, then a picture of one size.
     for (uint32_t side = 64; side <= 512; side *= 2)
-        print_size(context, side, 0.02f, false, SIDE_PX * side / 256);
+        print_size(context, side, 0.02f, false, SIDE_PX * side / 256, false);
     for (uint32_t side = 64; side <= 512; side *= 2)
-        if (side != 256) print_size(context, side, 0.02f, false, SIDE_PX);
+        if (side != 256) print_size(context, side, 0.02f, false, SIDE_PX, false);
 }
 
 static void print_occupancy(ewa_context *context, occupancy occupied, float extinction,
                             const char *save_path) {
-    const scene at = {CURVE_SIDE, SIDE_PX, occupied, extinction, false, save_path};
+    const scene at = {CURVE_SIDE, SIDE_PX, occupied, extinction, false, save_path, false};
     const figures out = measure(context, &at);
     printf("| %g | %d %% | %.2f M | %.1f | %.1f |\n", (double)extinction, occupied.percent,
            (double)out.info.occupied_count * 1e-6, out.frame_s * 1e3,
@@ -166,8 +174,8 @@ int main(int argc, char **argv) {
                 print_occupancy(context, curve[i], (float)atof(argv[3]), argc > 4 ? argv[4] : NULL);
     } else if (argc > 1) {
         printf("%s", size_head);
-        print_size(context, (uint32_t)atoi(argv[1]), argc > 2 ? (float)atof(argv[2]) : 0.02f, argc > 3,
-                   SIDE_PX);
+        print_size(context, (uint32_t)atoi(argv[1]), argc > 2 ? (float)atof(argv[2]) : 0.02f,
+                   argc > 3 && strcmp(argv[3], "near") == 0, SIDE_PX, argc > 4 && strcmp(argv[4], "gl") == 0);
     } else {
         printf("%s", size_head);
         print_sizes(context);

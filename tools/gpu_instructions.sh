@@ -165,6 +165,23 @@ for arithmetic in native emulated; do
     done
     kernel "compositing among surfaces, $arithmetic" "$own DEEP=1 DOTS=0 AMONG=1 STAGE=0" wide scan gaussian_frame codes gaussian_draw
 done
+for arithmetic in native emulated; do
+    with=$([ $arithmetic = native ] && echo 1 || echo 0)
+    own="FUSED=$with DIVIDES=$with ROOTS=$with MAX_SPAN=512"
+    # Records of points alone; pixels, then with a look at a point more, and at a splat.
+    edit='s/p.is_splat = p.slice < point_slice;/p.is_splat = false;/'
+    kernel "volumes: points to records, $arithmetic" "$own" wide volume_scene volume_place
+    edit=
+    kernel "volumes: voxels to records, $arithmetic" "$own" wide volume_scene volume_place
+    kernel "volumes: units of splats, $arithmetic" "$own" wide volume_scene volume_buckets
+    kernel "volumes: order of splats, $arithmetic" "$own" wide volume_scene volume_sort
+    kernel "volumes: pixels, $arithmetic" "$own" wide volume_scene codes volume_draw
+    edit='s/for (uint bits = pixel_bits\(.*\)bits != 0u;/for (uint bits = pixel_bits\1false;/'
+    kernel "volumes: pixels without looks at points, $arithmetic" "$own" wide volume_scene codes volume_draw
+    edit='s/^\( *\)else draw_splat(SPLAT_WORDS \* item);/\1else { draw_splat(SPLAT_WORDS * item); draw_splat(SPLAT_WORDS * (item ^ 1u)); }/'
+    kernel "volumes: pixels, two looks at a splat more, $arithmetic" "$own" wide volume_scene codes volume_draw
+    edit=
+done
 for stage in 0 1 2; do kernel "sort, stage $stage" "STAGE=$stage" scan sort; done
 for stage in 0 1 2 3; do
     kernel "lists of Gaussians, stage $stage" "FUSED=1 DIVIDES=1 ROOTS=1 DOUBLE_QUOTIENTS=1 DEEP=0 DOTS=0 AMONG=0 STAGE=$stage" wide scan gaussian_frame gaussian_list

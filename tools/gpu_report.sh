@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/.."
 folder=${1:-build/release}
 ewa=$folder/cli/ewa
-tests="gpu_bytes gpu_device gpu_fallback gpu_frame gpu_gaussians gpu_masks gpu_raster gpu_shaders gpu_sort gpu_sources cli_gpu"
+tests="gpu_bytes gpu_device gpu_fallback gpu_frame gpu_gaussians gpu_masks gpu_raster gpu_shaders gpu_sort gpu_sources gpu_volumes cli_gpu"
 
 missing=
 for tool in cc:gcc cmake:cmake ninja:ninja-build pkg-config:pkg-config; do
@@ -26,7 +26,7 @@ if [ -n "$missing" ]; then
     exit 1
 fi
 
-targets="ewa gpu_probe measure_gaussians"
+targets="ewa gpu_probe measure_gaussians measure_volume_speed"
 for test in $tests; do targets="$targets test_$test"; done
 {
     [ -f "$folder/CMakeCache.txt" ] || cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release
@@ -108,6 +108,17 @@ measure=$folder/measure/measure_gaussians copies=11
 for by in "" gl; do
     # shellcheck disable=SC2086
     fenced "$measure" "${GAUSSIANS:-ball}" $copies ${size%x*} ${size#*x} 0 0 3 $by
+done
+
+echo "### Volumes"
+echo
+echo "A gyroid of 256^3 voxels (of software 16^3), whole and from near, by the processor and by the device."
+echo
+side=256
+[ "$software" = 0 ] || side=16
+for by in "" gl; do
+    # shellcheck disable=SC2086
+    for view in whole near; do fenced "$folder/measure/measure_volume_speed" $side 0.02 $view $by; done
 done
 
 echo "### The paper's table 1"

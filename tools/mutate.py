@@ -119,6 +119,7 @@ NEAR = [
     ("src/framing", ["framing", "upright", "upright_bodies", "cli_places", "cli_render"]),
     ("src/furniture", ["furniture", "shapes", "text_drawing", "decimal", "cli_furniture"]),
     ("src/gl/gaussian", ["gpu_gaussians"]),
+    ("src/gl/volume", ["gpu_volumes"]),
     ("src/gl/sort", ["gpu_sort", "gpu_gaussians"]),
     ("src/gl/choice", ["gpu_fallback", "gpu_gaussians"]),
     ("src/gl", ["gpu_frame", "gpu_masks", "gpu_sources", "gpu_bytes", "gpu_raster", "gpu_device", "gpu_fallback"]),

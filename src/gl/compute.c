@@ -266,16 +266,19 @@ static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t fi
     return EWA_OK;
 }
 
-static void describe(const void *state, ewa_renderer_info *info) {
-    const ewa_gl_compute *gl = state;
-    snprintf(info->device, sizeof info->device, "%s", gl->device->facts.renderer);
-    info->device_class = gl->verdict.exact ? EWA_GPU_EXACT : EWA_GPU_CLOSE;
-    const ewa_gl_counts *counts = &gl->device->counts;
+void ewa_gl_describe_device(const ewa_gl *device, const ewa_gl_verdict *verdict, ewa_renderer_info *info) {
+    snprintf(info->device, sizeof info->device, "%s", device->facts.renderer);
+    info->device_class = verdict->exact ? EWA_GPU_EXACT : EWA_GPU_CLOSE;
+    const ewa_gl_counts *counts = &device->counts;
     info->wait_count = counts->waits, info->readback_count = counts->readbacks;
     info->dispatch_count = counts->dispatches, info->upload_bytes = counts->upload_bytes;
     info->readback_bytes = counts->readback_bytes;
-    if (gl->device->facts.software)
-        snprintf(info->remark, sizeof info->remark, "%.100s is software", gl->device->facts.renderer);
+    if (device->facts.software) snprintf(info->remark, sizeof info->remark, "%.100s is software", device->facts.renderer);
+}
+
+static void describe(const void *state, ewa_renderer_info *info) {
+    const ewa_gl_compute *gl = state;
+    ewa_gl_describe_device(gl->device, &gl->verdict, info);
 }
 
 const ewa_backend ewa_backend_gl = {.name = "gl",

@@ -106,6 +106,9 @@ ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict);
 /// EWA_ERROR_UNSUPPORTED, EWA_CANCELLED.
 ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_rows rows, ewa_gl_outcome *outcome);
 
+/// Sets what an info says of a device and of its last frame.
+void ewa_gl_describe_device(const ewa_gl *device, const ewa_gl_verdict *verdict, ewa_renderer_info *info);
+
 /// The device of a state of ewa_backend_auto, which is opened where it is not yet; NULL: it draws by the processor alone, and
 /// `*remark` says why.
 ewa_gl_compute *ewa_gl_auto_device(void *state, const char **remark);

@@ -46,3 +46,8 @@ ewa_status ewa_gl_gaussians_attach(ewa_context *context, ewa_renderer *surfaces,
     (void)context, (void)surfaces, (void)gaussians;
     return EWA_OK;
 }
+
+ewa_status ewa_gl_volume_attach(ewa_context *context, ewa_renderer *surfaces, ewa_volume_renderer *volumes) {
+    (void)context, (void)surfaces, (void)volumes;
+    return EWA_OK;
+}

@@ -3,7 +3,7 @@
 //
 // What tests ask of this room: EWA_GL_TUNING in the environment, "name=value name=value".
 //
-// tile_px, unit, page: sizes of work; storage, blocks, groups: bytes of a storage block, how many there are, and groups of a
+// tile_px, unit, page: sizes of work; turns: of loops in a dispatch that draws volumes; storage, blocks, groups: bytes of a storage block, how many there are, and groups of a
 // dispatch, at most; arith: "close" takes the device's own
 // arithmetic as it is, "emulated" nothing of it; nodevice=1: there is none; lose=N, hang=N: the N-th wait for the device finds
 // it lost, or hanging; software=1: EWA_BACKEND_AUTO takes devices that are software; auto=gl: and finds them faster.

@@ -11,6 +11,7 @@
 #include "surface/eye_dome.h"
 #include "surface/render.h"
 #include "surface/packets.h"
+#include "volume/backend.h"
 #include "volume/gaussian_backend.h"
 
 #include <math.h>
@@ -58,9 +59,9 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     if (!renderer) return;
     *given = NULL;
     ewa_context *context = renderer->context;
-    ewa_gaussian_renderer_destroy(&renderer->gaussians); // before the device of the surfaces
-    ewa_renderer_destroy(&renderer->surfaces);
+    ewa_gaussian_renderer_destroy(&renderer->gaussians);
     for (uint32_t i = 0; i < EWA_MAX_MIXED_VOLUMES; i++) ewa_volume_renderer_destroy(&renderer->volumes[i]);
+    ewa_renderer_destroy(&renderer->surfaces); // whose device the others draw by
     free_planes(renderer);
     ewa_scene_renderer_free_lists(renderer);
     ewa_details_free(context, &renderer->details);
@@ -78,6 +79,7 @@ ewa_status ewa_scene_renderer_describe(const ewa_scene_renderer *renderer, ewa_r
     const char *remark = "";
     bool by_device = false;
     if (renderer->drew_gaussians) by_device = ewa_gaussian_renderer_describe(renderer->gaussians, &all, &remark);
+    if (renderer->drew_volume) by_device = ewa_volume_renderer_describe(renderer->volumes[0], &all, &remark);
     if (renderer->drew_gaussians || renderer->drew_volume)
         snprintf(all.mixture, sizeof all.mixture, "%s", by_device ? ewa_backend_gl.name : ewa_backend_cpu.name);
     snprintf(all.mixture_remark, sizeof all.mixture_remark, "%s", remark);
@@ -267,18 +269,22 @@ static ewa_status make_gaussians(ewa_scene_renderer *renderer) {
     return ewa_gl_gaussians_attach(renderer->context, renderer->surfaces, renderer->gaussians);
 }
 
+static ewa_status make_volume(ewa_scene_renderer *renderer, uint32_t index) {
+    EWA_TRY(ewa_volume_renderer_create(renderer->context, &renderer->volumes[index]));
+    return ewa_gl_volume_attach(renderer->context, renderer->surfaces, renderer->volumes[index]);
+}
+
 /// Draws what lets light through, among surfaces where there are some.
 static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
                                const ewa_camera *camera, const ewa_scene_options *options,
                                const ewa_gaussian_options *among, const ewa_frame *frame,
                                ewa_scene_stats *stats) {
-    ewa_context *context = renderer->context;
     ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
     ewa_volume_stats took[EWA_MAX_MIXED_VOLUMES];
     ewa_mixed_volume mixed[EWA_MAX_MIXED_VOLUMES];
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < shown->volume_count && status == EWA_OK; i++) {
-        if (!renderer->volumes[i]) status = ewa_volume_renderer_create(context, &renderer->volumes[i]);
+        if (!renderer->volumes[i]) status = make_volume(renderer, i);
         volumes[i] = volume_options(options, shown->volumes[i]);
         mixed[i] = (ewa_mixed_volume){renderer->volumes[i], shown->voxels[i], &volumes[i], &took[i]};
     }

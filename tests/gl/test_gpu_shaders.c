@@ -6,6 +6,7 @@
 #include "check.h"
 #include "gl/gaussian_programs.h"
 #include "gl/shaders.h"
+#include "gl/volume.h"
 #include "gl/sort.h"
 
 #include <stdlib.h>
@@ -85,6 +86,18 @@ TEST(test_sort) {
         snprintf(path, sizeof path, "%s/%u.comp", folder, stage);
         write_program(path, source.head, source.pieces, source.piece_count);
     }
+    compile();
+}
+
+TEST(test_volumes) {
+    for (int a = 0; a < 2; a++)
+        for (int program = 0; program < EWA_GL_VOLUME_PROGRAMS; program++) {
+            ewa_gl_source source;
+            char path[128];
+            ewa_gl_volume_program_write(&arithmetics[a], (ewa_gl_volume_program)program, &source);
+            snprintf(path, sizeof path, "%s/%d_%d.comp", folder, program, a);
+            write_program(path, source.head, source.pieces, source.piece_count);
+        }
     compile();
 }
 
