@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa volume: volumes to a picture.
+#include "cli/base/backend.h"
 #include "cli/base/commands.h"
 #include "cli/base/json.h"
 #include "cli/render/frame_partition.h"
@@ -22,6 +23,7 @@ typedef struct volume_arguments {
     volume_scene_arguments scene;
     const char *output, *aov, *save_camera_path, *stats_path;
     bool progressive;
+    int backend;
     option_color background;
     section_arguments section;
     furnish_arguments furniture;
@@ -45,6 +47,7 @@ static const cli_option output_table[] = {
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
     {"stats", OPTION_OUTPUT, AT(stats_path), "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
+    BACKEND_OPTION(AT(backend)),
     {"progressive", OPTION_FLAG, AT(progressive),
      .help = "write a first picture of every second voxel along each axis, then the whole in its place",
      .excludes = "turntable path"},
@@ -183,8 +186,9 @@ static bool prepare(const volume_arguments *arguments, frame_cameras *frames, vo
     if (!options->shade_volumes) options->volumes.shading = (ewa_shading)arguments->light.shading;
     ewa_status status = ewa_scene_create(session->context, options, &painter->scene);
     if (status == EWA_OK)
-        status = ewa_scene_renderer_create(session->context, EWA_BACKEND_CPU, NULL, &painter->renderer);
+        status = ewa_scene_renderer_create(session->context, (ewa_backend_kind)arguments->backend, NULL, &painter->renderer);
     if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    backend_warn(session, arguments->backend, ewa_scene_renderer_surfaces(painter->renderer));
     if (!volume_scene_fill(session, &arguments->input, &arguments->scene,
                            arguments->frames.view.common.operands[0], arguments->progressive ? 2 : 1,
                            painter->scene))
@@ -237,6 +241,8 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
     json_count(&json, "film_frame_count", frames->count);
     json_count(&json, "frame_count", frames->chosen_count);
     json_count(&json, "threads", ewa_context_worker_count(session->context));
+    ewa_renderer_info renderer = {.struct_size = sizeof renderer};
+    if (ewa_scene_renderer_describe(painter->renderer, &renderer) == EWA_OK) backend_write(&json, &renderer);
     json_count(&json, "voxels", info->voxel_count);
     json_count(&json, "voxels_occupied", info->occupied_count);
     json_count(&json, "blocks", info->block_count);

@@ -123,6 +123,20 @@ TEST(test_lost) {
     }
 }
 
+/// Volumes, too, by each command that draws them; what is the processor's is said.
+TEST(test_volume) {
+    if (!exact()) return;
+    run_done("ewa generate vessels -o v.nrrd --dims 16 && ewa volume v.nrrd -o a.png --aov depth=a.pfm --size 40x30");
+    assert_int_equal(run("ewa volume v.nrrd -o b.png --aov depth=b.pfm --size 40x30 --backend gl --stats -"), 0);
+    assert_non_null(strstr(last_run.out, "\"mixture_backend\": \"gl\""));
+    assert_non_null(strstr(last_run.out, "\"device_waits\": 1,"));
+    assert_true(scratch_same("a.png", "b.png"));
+    assert_true(scratch_same("a.pfm", "b.pfm"));
+    assert_int_equal(run("ewa volume v.nrrd -o c.png --size 40x30 --backend gl --footprint table --stats -"), 0);
+    assert_non_null(strstr(last_run.out, "\"mixture_backend\": \"cpu\""));
+    assert_non_null(strstr(last_run.out, "\"mixture_remark\": \"the footprints of the paper"));
+}
+
 /// The viewer draws by it too.
 TEST(test_view) {
     if (!exact()) return;
