@@ -42,9 +42,10 @@ typedef struct ewa_estimate_options {
     double viewpoint_world[3];   ///< for EWA_ORIENT_VIEWPOINT
     ewa_surfel_shape shape;
     double radius_scale; ///< support radius in units of the local spacing 1/sqrt(density); (0, inf); default
-                         ///< 1.14
+                         ///< 1
     /// Radii that close gaps are at most this many times the median spacing of the places around, a third
-    /// more where samples are on lines; gaps that need more stay open; [1, inf); default 2.75
+    /// more where samples are on lines or discs are enlarged around a void; gaps that need more stay open; [1, inf);
+    /// default 2.75
     double radius_limit;
     double cutoff;         ///< F: tangent axes are radius / F long; (0, 4]; default 3
     bool keep_normals;     ///< keep "normal" when the cloud has it; default true
@@ -64,8 +65,8 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// - Normals are the direction of smallest variance, turned as `orientation` says; (0, 0, 1) for a lone
 ///   point.
 /// - Radii are radius_scale times the spacing, and never so small that irregular sampling leaves a hole, but
-///   for `radius_limit`. Points that are no part of what is around them get no more than radius_scale times
-///   the spacing there. Axes have the same area and the proportions of the point's cell among its neighbours,
+///   for `radius_limit`: discs around a gap in which kernels would add up to too little are enlarged. Points that
+///   are no part of what is around them get no more than radius_scale times the spacing there. Axes have the same area and the proportions of the point's cell among its neighbours,
 ///   at most 4 : 1, with u x v along the normal. What the old sizes meant goes: "radius" beside new axes,
 ///   axes beside new radii, clip lines and borders beside either.
 /// - Borders are where the 64 nearest places end at a line within the disc's reach, beyond which 12 of them would

@@ -121,7 +121,7 @@ class EstimateOptions(TypedDict, total=False):
     viewpoint_world: Sequence[float] | None
     #: disc: a radius from the local density; ellipse: two axes from the local anisotropy of the sampling; disc|ellipse, default disc
     shape: Literal["disc", "ellipse"] | int | None
-    #: support radius in units of the local spacing; (0, inf), default 1.14
+    #: support radius in units of the local spacing; (0, inf), default 1
     radius_scale: float | None
     #: largest radius that closes a gap, in median spacings of the places around; [1, inf), default 2.75
     radius_limit: float | None

@@ -9,8 +9,6 @@
 
 #include <string.h>
 
-enum { NEAR = 1, ASKED = 2 };
-
 ewa_status ewa_borders_make(ewa_context *context, uint32_t place_count, border_set *made) {
     *made = (border_set){.place_count = place_count};
     made->notes = ewa_allocate_zeroed(context, place_count, sizeof *made->notes);
@@ -27,18 +25,18 @@ void ewa_borders_note(border_set *set, uint32_t place, const float to_world[3]) 
     border_end *end = &set->ends[atomic_fetch_add_explicit(&set->end_count, 1, memory_order_relaxed)];
     end->place = place;
     memcpy(end->to_world, to_world, sizeof end->to_world);
-    atomic_fetch_or_explicit(&set->notes[place], NEAR, memory_order_relaxed);
+    atomic_fetch_or_explicit(&set->notes[place], BORDER_NEAR, memory_order_relaxed);
 }
 
 void ewa_borders_ask(border_set *set, uint32_t place) {
-    atomic_fetch_or_explicit(&set->notes[place], ASKED, memory_order_relaxed);
+    atomic_fetch_or_explicit(&set->notes[place], BORDER_ASKED, memory_order_relaxed);
 }
 
 bool ewa_borders_take_asked(border_set *set, uint8_t value, uint8_t *notes) {
     bool any = false;
     if (!set->end_count) return false; // only places near borders ask
     for (uint32_t place = 0; place < set->place_count; place++) {
-        const bool asked = set->notes[place] == ASKED;
+        const bool asked = set->notes[place] == BORDER_ASKED;
         notes[place] = asked ? value : 0;
         any |= asked;
     }

@@ -9,6 +9,8 @@
 
 #include <stdatomic.h>
 
+enum { BORDER_NEAR = 1, BORDER_ASKED = 2 };
+
 /// A place near a border, and where that is from there, world units.
 typedef struct border_end {
     uint32_t place;
@@ -29,6 +31,11 @@ void ewa_borders_free(ewa_context *context, border_set *set);
 
 /// Notes where the border nearest to a place is, from there, world units. Any thread, for any place once.
 void ewa_borders_note(border_set *set, uint32_t place, const float to_world[3]);
+
+/// Whether a place is near a border.
+static inline bool ewa_borders_is_near(const border_set *set, uint32_t place) {
+    return set->end_count && atomic_load_explicit(&set->notes[place], memory_order_relaxed) & BORDER_NEAR;
+}
 
 /// Asks a place to look for a border. Any thread.
 void ewa_borders_ask(border_set *set, uint32_t place);

@@ -8,6 +8,7 @@
 #include "cloud/cloud.h"
 #include "estimate/borders.h"
 #include "estimate/curvature.h"
+#include "estimate/gaps.h"
 #include "estimate/given.h"
 #include "estimate/local.h"
 #include "estimate/noise.h"
@@ -54,6 +55,7 @@ typedef struct estimate_job {
     uint8_t *notes;  // RADIUS_*
     uint8_t *strewn; // how little a place is part of a surface, of UINT8_MAX; NULL when no sizes are wanted
     border_set *borders; // NULL when no sizes are wanted
+    gap_set *gaps;       // NULL when no radii are wanted
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out, *surfaceness_out, *curvature_out;
     ewa_attribute position, given; // given: normals that are kept; no data: none are
@@ -93,7 +95,7 @@ static float length_or_none(double length) { return length <= (double)FLT_MAX ? 
 static void set_size(const estimate_job *job, uint32_t place, const local_surface *s, uint32_t lane,
                      double radius_world) {
     const float radius = length_or_none(radius_world);
-    if (job->radius_out) set_points(job, place, job->radius_out, &radius, 1);
+    if (job->gaps) job->gaps->radius[place] = radius;
     if (job->tangent_u_out) set_axes(job, place, s, lane, (double)radius);
 }
 
@@ -137,6 +139,7 @@ static void visit(void *user, const ewa_block *block, uint32_t worker) {
     for (uint32_t lane = 0; lane < block->lane_count; lane++)
         set_lane(job, job->wanted, block->first_place + lane, &s, lane, block->unit_world);
     if (job->wanted) job->kernels->size(job->wanted, &job->sizing, &s);
+    if (job->gaps) ewa_gaps_note(job->gaps, block, &s, s.thin | s.doubtful, worker);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
         const bool thin = s.thin >> lane & 1, doubtful = s.doubtful >> lane & 1;
@@ -199,6 +202,8 @@ static double settle_lane(const estimate_job *job, const local_batch *batch, uin
                              .scatter = scatter > lone ? scatter : lone};
     const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
     set_size(job, place, s, lane, radius * batch->unit_world[lane]);
+    const double closed = job->notes[place] & RADIUS_THIN || lone > 0 ? 0 : spacing;
+    if (job->gaps) ewa_gaps_set_corner(job->gaps, place, s, lane, closed);
     const bool curve = s->thin >> lane & 1;
     job->strewn[place] = (uint8_t)(curve ? UINT8_MAX : UINT8_MAX * ewa_radius_strewn((double)s->variation[lane]));
     return radius;
@@ -378,12 +383,14 @@ static ewa_status measure(ewa_context *context, estimate_job *job) {
     if (status == EWA_OK && thin) status = ewa_neighbours_visit(job->neighbours, &choice, visit_thin, job);
     if (status != EWA_OK || !job->wanted) return status;
     ewa_radius_doubt_sparse(context, job->spacing, job->place_count, job->options->radius_limit, job->notes);
+    if (job->gaps) ewa_gaps_need(job->gaps, job->notes, job->options->cutoff);
     choice.chosen_bits = RADIUS_AGAIN;
     choice.spacing = job->spacing;
     EWA_TRY(measure_again(context, job, &choice));
     // The fourth visit: to places with closed cells whose discs reach over a border.
-    if (!ewa_borders_take_asked(job->borders, RADIUS_DOUBTFUL, job->notes)) return EWA_OK;
-    return measure_again(context, job, &choice);
+    if (ewa_borders_take_asked(job->borders, RADIUS_DOUBTFUL, job->notes)) EWA_TRY(measure_again(context, job, &choice));
+    const gap_input input = {job->options, job->neighbours, job->kernels, job->borders, job->spacing, job->strewn, job->radius_out};
+    return job->gaps ? ewa_gaps_close(job->gaps, &input) : EWA_OK;
 }
 
 static void report_degenerate(ewa_context *context, const estimate_job *job) {
@@ -471,8 +478,9 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     const size_t places = job->place_count, workers = ewa_context_worker_count(context);
     job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
     job->sizing =
-        ewa_radius_sizing(job->options->radius_limit, job->options->radius_scale, job->options->cutoff);
+        ewa_radius_sizing(job->options->radius_limit, job->options->radius_scale, job->options->cutoff, sizes && !ellipse);
     border_set borders = {0};
+    gap_set gaps = {0};
     if (sizes) job->borders = &borders;
     ewa_status status = EWA_OK;
     if (sizes && !ellipse) status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
@@ -493,7 +501,10 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
         if (sizes)
             complete = (job->strewn = ewa_allocate_zeroed(context, places, sizeof *job->strewn)) && complete;
         if (sizes) complete = ewa_borders_make(context, job->place_count, &borders) == EWA_OK && complete;
+        if (sizes && !ellipse)
+            complete = ewa_gaps_make(context, job->place_count, job->gaps = &gaps) == EWA_OK && complete;
         status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
+        if (job->gaps) ewa_gaps_free(&gaps);
     }
     if (status == EWA_OK && job->given.data) status = note_given(cloud, job);
     if (status == EWA_OK) status = smooth_noise(cloud, job);

@@ -20,6 +20,7 @@ typedef struct local_surface {
     float line_spacing[EWA_BLOCK_LANES]; ///< 1 / (neighbours per length), where thin
     /// How far the place's own cell reaches where it is closed: a disc of this radius covers it ...
     float reach[EWA_BLOCK_LANES];
+    float corner[3][EWA_BLOCK_LANES]; ///< where that is, from the place; zeros where the cell is closed nowhere
     /// ... and an ellipse of the above axes whose shorter times longer axis is this squared does.
     float ellipse_reach[EWA_BLOCK_LANES];
     float radius[EWA_BLOCK_LANES];        ///< what size() makes of it
@@ -46,6 +47,8 @@ enum {
 typedef struct local_sizing {
     float scale;       ///< smallest radius in spacings
     float cover;       ///< radius that covers a reach of 1
+    bool gaps_later;   ///< whether gaps are closed afterwards, by what kernels add up to there
+    float thin_cover;  ///< the same as cover, where samples lie on a surface and gaps are closed afterwards
     float limit;       ///< in spacings of the place and in median ones
     float ratio_steps; ///< per 1 of radius over spacing
     float max_steps;   ///< at most 255
@@ -69,6 +72,17 @@ typedef struct local_border {
     _Alignas(64) float direction[3][EWA_BLOCK_LANES];
     float distance[EWA_BLOCK_LANES]; ///< > 0
 } local_border;
+
+/// Sixteen places and the discs around them, in one unit and from one origin.
+typedef struct local_gaps {
+    _Alignas(64) float corner[3][EWA_BLOCK_LANES]; ///< of the cell of each place, where a gap may be
+    float reach2[EWA_BLOCK_LANES];                 ///< squared distance of that from the place; 0: there is none
+    float radius[EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES];
+    uint32_t count; ///< of discs
+    float x[EWA_BLOCK_CANDIDATES], y[EWA_BLOCK_CANDIDATES], z[EWA_BLOCK_CANDIDATES];
+    /// Their radii; grow() leaves s of their kernels exp(-s distance^2) there.
+    float kernel[EWA_BLOCK_CANDIDATES];
+} local_gaps;
 
 /// One neighbour of each lane, from its place.
 typedef struct local_row {
@@ -125,6 +139,8 @@ typedef struct local_kernels {
     /// The signed curvature of each lane (ewa/cloud.h), per length of its ways, and how far that is to be trusted, 0 to
     /// 1: by the squares of normals that it explains over those that are left.
     void (*curve)(const local_fans *fans, float curvature[EWA_BLOCK_LANES], float trust[EWA_BLOCK_LANES]);
+    /// The radii that discs of this cutoff grow to where kernels add up to less than what is needed at the corner.
+    void (*grow)(local_gaps *gaps, float needed, float cutoff, float grown[EWA_BLOCK_LANES]);
 } local_kernels;
 
 EWA_DECLARE_VERSIONS(const local_kernels, ewa_local_kernels);

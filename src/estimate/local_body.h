@@ -34,6 +34,8 @@ static const float LINE_VARIANCE = 1e-3f; // second over first variance below wh
 static const float THIN_VARIANCE = 0.05f; // the same below which more neighbours should be asked
 static const float MAX_REACH = 2.0f; // spacings; cells that reach further are open: at a border or a hole
 static const float ENCLOSED_COSINE = 0.866025404f; // of the angle up to which a neighbour bounds a direction
+// Share of the variance along the normal up to which samples lie on a surface; from twice that on they are noise around it.
+static const float THIN_VARIATION = 0.007f;
 static const float REACH_MARGIN = 1.08f; // a corner of the cell between two directions reaches further
 
 // cos and sin of i * 22.5 degrees
@@ -367,10 +369,19 @@ static wf closed_extent(const cell *c, int i) {
     return wf_keep(wm_and(c->shut[i], wm_not(beside)), c->extent[i]);
 }
 
-static wf find_reach(const cell *c) {
-    wf reach = wf_set(0);
-    for (int i = 0; i < 2 * DIRECTIONS; i++) reach = wf_max(reach, closed_extent(c, i));
-    return wf_mul(reach, wf_set(REACH_MARGIN));
+/// Sets how far the cell reaches, and where.
+static void find_reach(const cell *c, const frame *f, local_surface *surface) {
+    wf reach = wf_set(0), x = reach, y = reach;
+    for (int i = 0; i < 2 * DIRECTIONS; i++) {
+        const wf extent = closed_extent(c, i);
+        const wm farther = wf_lt(reach, extent);
+        const float sign = i < DIRECTIONS ? 1.0f : -1.0f;
+        reach = wf_select(farther, extent, reach);
+        x = wf_select(farther, wf_set(sign * DIRECTION_X[i % DIRECTIONS]), x);
+        y = wf_select(farther, wf_set(sign * DIRECTION_Y[i % DIRECTIONS]), y);
+    }
+    wf_store(surface->reach, wf_mul(reach, wf_set(REACH_MARGIN)));
+    v_store(surface->corner, v_add(v_scale(f->u, wf_mul(reach, x)), v_scale(f->v, wf_mul(reach, y))));
 }
 
 /// The axes of the ellipse with the cell's proportions, from the cell's second moments: t^4 u u^T summed over
@@ -430,7 +441,7 @@ static float find_median(const float *values, uint32_t count) {
 }
 
 static void measure_cell(uint32_t wanted, const cell *c, const frame *f, wf spacing, local_surface *surface) {
-    if (wanted & LOCAL_REACH) wf_store(surface->reach, find_reach(c));
+    if (wanted & LOCAL_REACH) find_reach(c, f, surface);
     if (wanted & LOCAL_SHAPE) find_shape(c, f, spacing, surface);
 }
 
@@ -464,11 +475,15 @@ static void measure(const ewa_block *block, uint32_t wanted, local_batch *batch,
 }
 
 static void size(uint32_t wanted, const local_sizing *sizing, local_surface *surface) {
-    const wf spacing = wf_load(surface->spacing), zero = wf_set(0);
+    const wf spacing = wf_load(surface->spacing), zero = wf_set(0), one = wf_set(1);
     const wf reach = wf_load(wanted & LOCAL_SHAPE ? surface->ellipse_reach : surface->reach);
-    const wf wide = wf_add(reach, wf_max(wf_sub(reach, spacing), zero));
+    // Kernels in a gap among noise lie at several depths, and not all of them count later.
+    const wf off = wf_sub(wf_load(surface->variation), wf_set(THIN_VARIATION));
+    const wf thick = sizing->gaps_later ? wf_max(zero, wf_min(one, wf_div(off, wf_set(THIN_VARIATION)))) : one;
+    const wf wide = wf_add(reach, wf_mul(wf_max(wf_sub(reach, spacing), zero), thick));
+    const wf cover = wf_add(wf_set(sizing->thin_cover), wf_mul(wf_set(sizing->cover - sizing->thin_cover), thick));
     const wf allowed = wf_mul(wf_min(spacing, wf_set(surface->median_spacing)), wf_set(sizing->limit));
-    const wf closed = wf_min(wf_mul(wide, wf_set(sizing->cover)), allowed);
+    const wf closed = wf_min(wf_mul(wide, cover), allowed);
     const wf radius = wf_max(wf_mul(spacing, wf_set(sizing->scale)), closed);
     wf_store(surface->radius, radius);
     const wf steps = wf_mul(wf_div(radius, wf_max(spacing, wf_set(1e-30f))), wf_set(sizing->ratio_steps));
@@ -522,7 +537,8 @@ static void link_nearest(const ewa_block *block, const local_batch *batch, local
 #include "estimate/local_batch_body.h"
 #include "estimate/local_border_body.h"
 #include "estimate/local_curvature_body.h"
+#include "estimate/local_gap_body.h"
 
 const local_kernels EWA_VERSION(ewa_local_kernels) = {
     measure, size, collect, find_around, enclose, find_border, measure_distance, link_nearest,
-    fit_curvature};
+    fit_curvature, grow};

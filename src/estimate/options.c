@@ -26,7 +26,7 @@ static const ewa_option option_rows[] = {
      .help = "disc: a radius from the local density; ellipse: two axes from the local anisotropy of the "
              "sampling"},
     {"radius_scale", EWA_OPTION_F64, AT(radius_scale), 0, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW,
-     .initial = EWA_DEFAULT_RADIUS_SCALE, .help = "support radius in units of the local spacing"},
+     .initial = 1, .help = "support radius in units of the local spacing"},
     {"radius_limit", EWA_OPTION_F64, AT(radius_limit), 1, INFINITY, EWA_OPTION_BELOW,
      .initial = EWA_DEFAULT_RADIUS_LIMIT,
      .help = "largest radius that closes a gap, in median spacings of the places around"},

@@ -15,6 +15,8 @@ enum {
 // A kernel has weight up to so many standard deviations: beyond them it has next to none, and the surface
 // would look like a hole there.
 static const double SOLID_SIGMAS = 2;
+// The same where gaps are closed afterwards.
+static const double COVERED_SIGMAS = 2.14;
 // Share of the variance along the normal from which a neighbourhood is no surface at all. Edges of solids
 // have 0.085, noise of half a spacing 0.09 of few neighbours and 0.03 of many, leaves of trees 0.1 to 0.2.
 static const double SCATTERED_VARIATION = 0.16;
@@ -39,9 +41,11 @@ double ewa_radius(const radius_place *place, double scale, double cutoff) {
     return plain + (1 - place->scatter) * larger(0, closed - plain);
 }
 
-local_sizing ewa_radius_sizing(double limit, double scale, double cutoff) {
+local_sizing ewa_radius_sizing(double limit, double scale, double cutoff, bool gaps_later) {
     return (local_sizing){.scale = (float)scale,
                           .cover = (float)larger(1, cutoff / SOLID_SIGMAS),
+                          .gaps_later = gaps_later,
+                          .thin_cover = (float)larger(1, cutoff / COVERED_SIGMAS),
                           .limit = (float)limit,
                           .ratio_steps = RADIUS_NOTE_RATIO,
                           .max_steps = RADIUS_NOTE_MAX};

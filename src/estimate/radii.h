@@ -30,8 +30,9 @@ typedef struct radius_place {
 /// cutoff `cutoff` to cover its own cell, up to the limit: then irregular sampling leaves no hole.
 double ewa_radius(const radius_place *place, double scale, double cutoff);
 
-/// The same for local_kernels.size(), with `limit` in spacings; steps are those of notes.
-local_sizing ewa_radius_sizing(double limit, double scale, double cutoff);
+/// The same for local_kernels.size(), with `limit` in spacings; steps are those of notes. Where `gaps_later` discs
+/// of places that lie on a surface cover their cells barely, and what that leaves open is closed afterwards.
+local_sizing ewa_radius_sizing(double limit, double scale, double cutoff, bool gaps_later);
 
 /// Returns how little a neighbourhood is a surface, 0 to 1, by the share of its variance along the normal.
 double ewa_radius_scatter(double variation);

@@ -98,7 +98,7 @@ TEST_ON(test_axes, 2) {
         assert_true(fabs(longer / shorter / STRETCH - 1) < 0.1);
         assert_true(fabs(ux * sin(TURN) - uy * cos(TURN)) < 0.035 * longer); // 2 degrees
         const double radius = 1.5 * sqrt(longer * shorter);
-        assert_true(fabs(radius / EWA_DEFAULT_RADIUS_SCALE - 1) < 0.045);
+        assert_true(fabs(radius - 1) < 0.045);
     }
     assert_true(checked > count / 2);
 }

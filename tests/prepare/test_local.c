@@ -366,15 +366,15 @@ static void hold_enclose(const local_kernels *kernels, const ewa_block *block, t
     assert_int_equal(got.doubtful, 0);
 }
 
-static void hold_size(const local_kernels *kernels, check_random *random) {
+static void hold_size(const local_kernels *kernels, bool gaps_later, check_random *random) {
     local_surface s = {.median_spacing = 0.7f};
-    const local_sizing sizing = {
-        .scale = 1.2f, .cover = 1.5f, .limit = 2.4f, .ratio_steps = 16, .max_steps = 63};
+    const local_sizing sizing = {.scale = 1.2f, .cover = 1.5f, .gaps_later = gaps_later, .thin_cover = 1.4f,
+                                 .limit = 2.4f, .ratio_steps = 16, .max_steps = 63};
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
         s.spacing[i] = (float)check_uniform(random, 0.1, 2);
         s.reach[i] = s.spacing[i] * (float)check_uniform(random, 0, 2);
         s.ellipse_reach[i] = s.spacing[i] * (float)check_uniform(random, 0, 2);
-        s.variation[i] = (float)check_uniform(random, 0, 0.15);
+        s.variation[i] = (float)check_uniform(random, 0, i % 2 ? 0.15 : 0.02);
     }
     for (uint32_t wanted = LOCAL_REACH; wanted <= LOCAL_SHAPE; wanted++) {
         s.doubtful = 0x7fff;
@@ -382,13 +382,45 @@ static void hold_size(const local_kernels *kernels, check_random *random) {
         for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
             const double spacing = (double)s.spacing[i];
             const double reach = (double)(wanted == LOCAL_SHAPE ? s.ellipse_reach[i] : s.reach[i]);
-            const double closed = fmin(1.5 * (reach + fmax(0, reach - spacing)), 2.4 * fmin(spacing, 0.7));
+            const double thick = gaps_later ? fmax(0, fmin(1, (double)s.variation[i] / 0.007 - 1)) : 1;
+            const double wide = (1.4 + 0.1 * thick) * (reach + thick * fmax(0, reach - spacing));
+            const double closed = fmin(wide, 2.4 * fmin(spacing, 0.7));
             const double radius = fmax(1.2 * spacing, closed), steps = fmin(63, radius / spacing * 16 + 1);
             assert_close((double)s.radius[i], radius, 1e-5);
             const bool at_limit = closed >= 2.4 * fmin(spacing, 0.7) * (1 - 1e-6);
             assert_int_equal(s.doubtful >> i & 1, i < 15 && ((double)s.variation[i] > 0.11 || !at_limit));
             assert_true(fabs((double)s.ratio[i] + 0.5 - steps) < 0.501);
         }
+    }
+}
+
+/// Discs grow where kernels are too few at the farthest corner, by what closes it if all grow alike, up to a limit.
+static void hold_growth(const local_kernels *kernels, check_random *random) {
+    local_gaps gaps = {.count = 40};
+    float radius[40], grown[EWA_BLOCK_LANES];
+    for (uint32_t i = 0; i < gaps.count; i++) {
+        gaps.x[i] = (float)check_uniform(random, -3, 3), gaps.y[i] = (float)check_uniform(random, -3, 3);
+        gaps.z[i] = (float)check_uniform(random, -0.1, 0.1);
+        gaps.kernel[i] = radius[i] = (float)check_uniform(random, 0.8, 2);
+    }
+    for (int i = 0; i < EWA_BLOCK_LANES; i++) {
+        for (int c = 0; c < 3; c++) gaps.corner[c][i] = (float)check_uniform(random, -2, 2);
+        gaps.radius[i] = (float)check_uniform(random, 0.8, 2), gaps.limit[i] = i == 3 ? 0.5f : 2.2f;
+        gaps.reach2[i] = i == 5 ? 0 : (float)check_uniform(random, 0.1, 4);
+    }
+    kernels->grow(&gaps, 0.6f, 3, grown);
+    for (int i = 0; i < EWA_BLOCK_LANES; i++) {
+        double sum = 0;
+        for (uint32_t k = 0; k < gaps.count; k++) {
+            const double x = (double)(gaps.x[k] - gaps.corner[0][i]), y = (double)(gaps.y[k] - gaps.corner[1][i]);
+            const double z = (double)(gaps.z[k] - gaps.corner[2][i]), sigmas = 3 / (double)radius[k];
+            sum += pow(fmax(0, 1 - sigmas * sigmas * (x * x + y * y + z * z) / 32), 16);
+        }
+        const double own = (double)gaps.radius[i], exponent = fmax(0.5, 4.5 * (double)gaps.reach2[i] / (own * own));
+        const double ratio = 0.6 / fmax(sum, 1e-6), step = (ratio - 1) / ((ratio + 1) * exponent);
+        const double by = fmin(1.5, 1 + step + step * step / 2);
+        const bool grows = sum < 0.6 && gaps.reach2[i] > 0;
+        assert_close((double)grown[i], grows ? fmax(own, fmin(own * by, (double)gaps.limit[i])) : own, 1e-4);
     }
 }
 
@@ -452,7 +484,8 @@ TEST(test_tables) {
             hold_enclose(kernels, &block, &t);
             hold_median(kernels, &block, &random);
             hold_distances(kernels, &block);
-            hold_size(kernels, &random);
+            hold_size(kernels, false, &random), hold_size(kernels, true, &random);
+        hold_growth(kernels, &random);
         }
         print_message("%d planes, %d thin, %d reaches, %d doubtful, %d certain, %d shapes, %d enclosed\n",
                       t.plane, t.thin, t.reach, t.doubtful, t.certain, t.shape, t.enclosed);

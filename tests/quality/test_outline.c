@@ -246,7 +246,7 @@ TEST_ON(test_silhouettes_follow_the_filter, 0) {
 
 TEST_ON(test_borders, 0) {
     static const uint64_t counts[] = {1000, 20000, 100000}; // spacings of 6, 1.4 and 0.6 px
-    static const double fat_px[] = {0.6, 0.06, 0.06}, rms[] = {0.45, 0.23, 0.15}, open[] = {0.015, 1e-3, 1e-4};
+    static const double fat_px[] = {0.6, 0.06, 0.06}, rms[] = {0.45, 0.23, 0.15}, open[] = {0.012, 1e-4, 1e-5};
     for (int i = 0; i < 3; i++) {
         const uint64_t n = counts[i];
         print_message("%llu points\n", (unsigned long long)n);
@@ -271,7 +271,7 @@ TEST_ON(test_flat_angles, 0) {
         snprintf(name, sizeof name, "square at %g degrees, random points", angles_deg[i]);
         const outline_errors found =
             measure(context, name, OUTLINE_SQUARE, eye, estimated(context, OUTLINE_SQUARE, 20000));
-        assert_true(found.open < 2e-3);
+        assert_true(found.open < 1e-4);
     }
 }
 

@@ -24,12 +24,12 @@ TEST_ON(test_closed, 0) {
         double detail;
         uint32_t count;
         double translucent, thin; ///< largest shares of the pixels inside
-    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3e-5, 4e-3},
-                  {"sphere", RADII_SPHERE, 0, 100000, 1e-5, 3e-3},
-                  {"terrain", RADII_TERRAIN, 0, 60000, 5e-5, 4e-3},
-                  {"lines 5 : 1", RADII_LINES, 5, 20000, 0, 1e-3},
+    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 0, 2e-4},
+                  {"sphere", RADII_SPHERE, 0, 100000, 0, 1e-4},
+                  {"terrain", RADII_TERRAIN, 0, 60000, 3e-5, 1e-3},
+                  {"lines 5 : 1", RADII_LINES, 5, 20000, 0, 1e-4},
                   {"lines 20 : 1", RADII_LINES, 20, 20000, 1e-5, 4e-3},
-                  {"noise of 1/4", RADII_NOISY, 0.25, 20000, 4e-4, 2e-2}};
+                  {"noise of 1/4", RADII_NOISY, 0.25, 20000, 1e-4, 8e-3}};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
@@ -54,10 +54,10 @@ TEST_ON(test_limited, 0) {
         double detail;
         uint32_t count;
         double largest; ///< in median spacings
-    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3},         {"dense plane", RADII_PLANE, 0, 1000000, 3},
-                  {"sphere", RADII_SPHERE, 0, 100000, 3},      {"terrain", RADII_TERRAIN, 0, 60000, 3.05},
-                  {"lone points", RADII_LONE, 0, 20000, 3.05}, {"fog", RADII_FOG, 0, 20000, 3.8},
-                  {"garden", RADII_GARDEN, 0, 20000, 4.2},     {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
+    } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 4},      {"dense plane", RADII_PLANE, 0, 1000000, 4},
+                  {"sphere", RADII_SPHERE, 0, 100000, 4},   {"terrain", RADII_TERRAIN, 0, 60000, 4},
+                  {"lone points", RADII_LONE, 0, 20000, 4}, {"fog", RADII_FOG, 0, 20000, 3.8},
+                  {"garden", RADII_GARDEN, 0, 20000, 4.5},  {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         OWNED(ewa_cloud_destroy)
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
