@@ -40,8 +40,8 @@ static const float GREY = 0.2f;
 /// What is off by more where it covers looks blurred, however little of the frame that is; 1/255.
 static const double MAX_RMS = 12;
 
-/// What cameras see of slopes beyond what patches show inside.
-static const double SAFETY_FACTOR = 1.4;
+/// What cameras see beyond what patches show: of slopes inside, and of outlines.
+static const double INSIDE_FACTOR = 1.6, OUTLINE_FACTOR = 1.2;
 
 /// What a pixel's part that is covered costs beside a surfel.
 static const double PART_COST = 2;
@@ -349,8 +349,9 @@ static uint32_t find_level(const detail *of, division_by by, const detail_frame 
     uint32_t level = 0;
     while (level + 1 < EWA_MAX_LEVELS) {
         const detail_error error = error_of(of, by, level + 1, scale, middle);
-        const double inside = SAFETY_FACTOR * SAFETY_FACTOR * error.inside * shares->covered;
-        if (error.inside > MAX_RMS * MAX_RMS || (inside + error.outline * shares->outline) * frame->count > frame->max_rms * frame->max_rms) break;
+        const double inside = INSIDE_FACTOR * INSIDE_FACTOR * error.inside * shares->covered;
+        const double outline = OUTLINE_FACTOR * OUTLINE_FACTOR * error.outline * shares->outline;
+        if (error.inside > MAX_RMS * MAX_RMS || (inside + outline) * frame->count > frame->max_rms * frame->max_rms) break;
         level++;
     }
     return level;
