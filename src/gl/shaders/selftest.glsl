@@ -15,7 +15,7 @@ layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
 const double PER_2_30 = 9.31322574615478515625e-10LF;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x, at = i * 12u;
+    uint i = gl_GlobalInvocationID.x, at = i * 10u;
     Numbers v = inputs[i];
 #if NATIVE
     precise float fused = fma(v.a, v.b, v.c), quotient = v.n / v.m, root = sqrt(v.x), product = v.a * v.b,
@@ -25,17 +25,15 @@ void main() {
     results[at + 1u] = floatBitsToUint(quotient);
     results[at + 2u] = floatBitsToUint(root);
     results[at + 3u] = floatBitsToUint(both);
-    results[at + 4u] = floatBitsToUint(float(wide_product));
+    precise double factor = double(v.b) + double(v.n) * PER_2_30, long_product = double(v.a) * factor;
+    results[at + 4u] = floatBitsToUint(float(long_product));
     results[at + 5u] = unpackDouble2x32(wide).x;
     results[at + 6u] = unpackDouble2x32(wide).y;
-    results[at + 7u] = floatBitsToUint(float(double(v.x)));
-    precise float small = v.s * MIN_NORMAL;
-    results[at + 8u] = floatBitsToUint(small);
-    precise double factor = double(v.b) + double(v.n) * PER_2_30, long_product = double(v.a) * factor;
-    results[at + 9u] = floatBitsToUint(float(long_product));
     precise double divisor = double(v.a) + double(v.m) * PER_2_30, wide_quotient = factor / divisor;
-    results[at + 10u] = unpackDouble2x32(wide_quotient).x;
-    results[at + 11u] = unpackDouble2x32(wide_quotient).y;
+    results[at + 7u] = unpackDouble2x32(wide_quotient).x;
+    results[at + 8u] = unpackDouble2x32(wide_quotient).y;
+    precise float small = v.s * MIN_NORMAL;
+    results[at + 9u] = floatBitsToUint(small);
 #else
     results[at] = floatBitsToUint(wf_fma(v.a, v.b, v.c));
     results[at + 1u] = floatBitsToUint(wf_div(v.n, v.m));
@@ -52,10 +50,8 @@ void main() {
         b = 1.0LF - PER_2_30;
         other = 9007199254740992.0LF + 2.0LF * double(floor(v.s * 1048576.0));
     }
-    uvec2 quotient = unpackDouble2x32(wd_div(other, b));
-    results[at + 10u] = quotient.x;
-    results[at + 11u] = quotient.y;
-    uvec2 bits = unpackDouble2x32(wd_fma(a, b, (i & 1u) != 0u ? left : other));
+    double result = (i & 7u) == 5u ? wd_div(other, b) : wd_fma(a, b, (i & 1u) != 0u ? left : other);
+    uvec2 bits = unpackDouble2x32(result);
     results[at + 8u] = bits.x;
     results[at + 9u] = bits.y;
 #endif
