@@ -125,16 +125,16 @@ static ewa_status put_voxels(ewa_gl_volume *gl, const ewa_voxels *voxels, const 
     return ewa_gl_check(gl->device, "voxels");
 }
 
-/// Copies the taps of all filters, whose phases go on from one to the next.
+/// Copies the taps of all filters.
 static ewa_status put_filters(ewa_gl_volume *gl, const ewa_point_filter *filters) {
     enum { TAPS = 4, FIRST_TAP = 4, COUNT = EWA_FILTER_COUNT * EWA_FILTER_PHASES };
     if (gl->has_filters) return EWA_OK;
-    float(*taps)[TAPS] = ewa_allocate_zeroed(gl->context, COUNT + 1, sizeof *taps);
+    float(*taps)[TAPS] = ewa_allocate_zeroed(gl->context, COUNT, sizeof *taps);
     if (!taps) return EWA_ERROR_MEMORY;
     for (int i = 0; i < COUNT; i++)
         memcpy(taps[i], &filters[i / EWA_FILTER_PHASES][i % EWA_FILTER_PHASES][FIRST_TAP], sizeof taps[i]);
-    const ewa_status status = put(gl, EWA_GL_VOLUME_FILTERS, "filters", taps, (COUNT + 1) * sizeof *taps);
-    ewa_release(gl->context, taps, COUNT + 1, sizeof *taps);
+    const ewa_status status = put(gl, EWA_GL_VOLUME_FILTERS, "filters", taps, COUNT * sizeof *taps);
+    ewa_release(gl->context, taps, COUNT, sizeof *taps);
     gl->has_filters = status == EWA_OK;
     return status;
 }

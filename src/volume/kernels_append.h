@@ -33,8 +33,10 @@ static ALWAYS_INLINE wi point_windows(const ewa_volume_tile *tile, wf x, wf y, w
     const wf u = wf_max(wf_min(wf_sub(x, half), limit), wf_set(-1e6f));
     const wf v = wf_max(wf_min(wf_sub(y, half), limit), wf_set(-1e6f));
     const wf whole_u = wf_floor(u), whole_v = wf_floor(v), phases = wf_set(EWA_FILTER_PHASES);
-    const wi phase_u = wi_from_f(wf_mul(wf_sub(u, whole_u), phases));
-    const wi phase_v = wi_from_f(wf_mul(wf_sub(v, whole_v), phases));
+    // The rest of what is just below a whole number is rounded to 1.
+    const wf last = wf_set(EWA_FILTER_PHASES - 1);
+    const wi phase_u = wi_from_f(wf_min(wf_mul(wf_sub(u, whole_u), phases), last));
+    const wi phase_v = wi_from_f(wf_min(wf_mul(wf_sub(v, whole_v), phases), last));
     // The window begins one pixel before; the margin is four wide.
     const wf left = wf_sub(whole_u, wf_set(1)), top = wf_sub(whole_v, wf_set(1));
     *touches = wm_and(wm_and(wf_le(wf_set(-3), left), wf_lt(left, wf_set((float)tile->width_px))),

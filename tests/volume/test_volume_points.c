@@ -104,6 +104,29 @@ TEST_ON(test_single_voxels, 1) {
     }
 }
 
+/// A point that is less than a rounding beside the middle of a pixel is drawn as one that is there, by every filter.
+TEST_ON(test_just_beside_a_pixel, 1) {
+    static const uint32_t dims[3] = {3, 3, 3};
+    OWNED(ewa_volume_free) ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    for (int i = 0; i < 27; i++) ((float *)volume.voxels)[i] = i == 13;
+    const ewa_transfer transfer = scene_linear(1, 1, 1, 0.2f);
+    OWNED(ewa_voxels_destroy) ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    for (int n = 0; n < 64; n++) {
+        ewa_camera camera = look(40, 0.01 + 0.0124 * n, 0);
+        camera.projection = EWA_ORTHOGRAPHIC;
+        ewa_volume_options options = defaults();
+        options.method = EWA_VOLUME_POINTS;
+        options.prefilter_px = 0.2 + 0.009 * n;
+        camera.cx_px = camera.cy_px = 0.5;
+        OWNED(ewa_image_free) ewa_image there = scene_draw(context, voxels, &camera, &options);
+        camera.cx_px = camera.cy_px = (double)nextafterf(0.5f, 0);
+        OWNED(ewa_image_free) ewa_image beside = scene_draw(context, voxels, &camera, &options);
+        assert_true(there.pixels[3] > 0);
+        for (int i = 0; i < 4 * PIXELS; i++)
+            expect("pixel", (double)beside.pixels[i], (double)there.pixels[i], 0.1 * (double)there.pixels[3]);
+    }
+}
+
 /// Voxels are points while they are at most 1.2 px apart and their filter at most 0.8 px wide.
 TEST_ON(test_threshold, 1) {
     static const uint32_t dims[3] = {6, 6, 6};

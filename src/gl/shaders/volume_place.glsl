@@ -44,7 +44,8 @@ float splat_reach(float length_, float inverse_) {
 uint point_window(Tile tile, float x, float y, out bool touches) {
     float u = wf_max(wf_min(wf_sub(x, 0.5), 1e6), -1e6), v = wf_max(wf_min(wf_sub(y, 0.5), 1e6), -1e6);
     float whole_u = floor(u), whole_v = floor(v);
-    uint phase_u = uint(wf_mul(wf_sub(u, whole_u), 32.0)), phase_v = uint(wf_mul(wf_sub(v, whole_v), 32.0));
+    uint phase_u = uint(wf_min(wf_mul(wf_sub(u, whole_u), 32.0), 31.0));
+    uint phase_v = uint(wf_min(wf_mul(wf_sub(v, whole_v), 32.0), 31.0));
     float left = wf_sub(whole_u, 1.0), top = wf_sub(whole_v, 1.0);
     touches = -3.0 <= left && left < float(tile.width_px) && -3.0 <= top && top < float(tile.height_px);
     uint column = uint(int(left) + 4) & 127u, row = uint(int(top) + 4) & 127u;
