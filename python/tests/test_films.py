@@ -83,7 +83,7 @@ class Films(Case):
             self.run_program("render", "scan.ply", "-o", "theirs.png", *words, *colors, *(["--ortho", "3"] if lens else []))
             scene = ewa.Scene()
             scene.add(self.path("scan.ply"), color_by=name, colormap="turbo" if lens else "auto")
-            image = scene.render(scene.camera(size=(320, 240), **lens))
+            image = scene.render(scene.camera(size=(320, 240), color_bar=True, **lens))
             scene.draw_furniture(image, **furniture).save(self.path("ours.png"))
             self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"), name)
         plain = ewa.Scene(ewa.generate("torus", 2000))
