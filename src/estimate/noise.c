@@ -4,8 +4,8 @@
 // A depth camera that measures by disparity has noise and steps of one size in inverse depth, 1 / z. In the picture plane
 // (a, b) = (x / z, y / z) of its eye a plane n.p = d has 1 / z = (n / d).(a, b, 1): it is linear there. So planes are
 // fitted to inverse depths in windows of the picture, by sums over rectangles. The largest window counts whose residual is
-// noise; at edges those beside the place do (M. Kuwahara et al., 1976), so that edges stay sharp. No section of docs/math.md
-// is about it; docs/quality.md says what it gives.
+// noise; at edges those beside the place do (M. Kuwahara et al., 1976), so that edges stay sharp
+// (docs/math.md section 5; docs/quality.md says what it gives).
 //
 // F. Holzer, R. Rusu, M. Dixon, S. Gedikli, N. Navab, "Adaptive neighborhood selection for real-time surface normal
 // estimation from organized point cloud data using integral images", 2012, choose windows by depth; here the residual does.
@@ -236,6 +236,11 @@ typedef struct probe {
     double w, small, large, pitch; ///< residuals are standard deviations
 } probe;
 
+typedef struct probe_list {
+    probe probes[PROBES];
+    double numbers[PROBES]; ///< of them, to be sorted
+} probe_list;
+
 static int compare_probes(const void *a, const void *b) { return compare_numbers(&((const probe *)a)->w, &((const probe *)b)->w); }
 
 /// Takes windows all over the picture; returns how many, by inverse depth.
@@ -279,9 +284,9 @@ static bool may_have_noise(const noise_input *input, const picture *p) {
 }
 
 /// Finds the noise; false where there is none to speak of.
-static bool find_noise(const noise_input *input, picture *p) {
-    probe probes[PROBES];
-    double numbers[PROBES];
+static bool find_noise(const noise_input *input, probe_list *list, picture *p) {
+    probe *probes = list->probes;
+    double *numbers = list->numbers;
     const uint32_t count = take_probes(input, p, probes);
     if (count < MIN_PROBES) return false;
     for (uint32_t i = 0; i < count; i++) numbers[i] = probes[i].small;
@@ -390,12 +395,15 @@ ewa_status ewa_noise_smooth(ewa_context *context, const noise_input *input, cons
     memcpy(p->eye, input->grid->given ? input->grid->eye : input->world_origin, sizeof p->eye);
     if (!aim(input, p) || !may_have_noise(input, p) || !frame(input, p)) return EWA_OK;
     ewa_status status = fill(context, input, p);
-    if (status == EWA_OK && find_noise(input, p)) {
+    probe_list *list = ewa_allocate(context, 1, sizeof *list);
+    if (!list) status = EWA_ERROR_MEMORY;
+    if (status == EWA_OK && find_noise(input, list, p)) {
         job.turned = ewa_allocate_zeroed(context, tasks, sizeof *job.turned);
         status = job.turned ? ewa_parallel_stoppable(context, "estimate", smooth_task, &job, tasks) : EWA_ERROR_MEMORY;
         for (uint32_t i = 0; i < tasks && job.turned; i++) *turned += job.turned[i];
         ewa_release(context, job.turned, tasks, sizeof *job.turned);
     }
+    ewa_release(context, list, 1, sizeof *list);
     ewa_release(context, p->corner, ((size_t)p->width + 1) * ((size_t)p->height + 1), sizeof *p->corner);
     return status;
 }
