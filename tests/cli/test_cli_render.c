@@ -147,24 +147,36 @@ TEST(test_far_points) {
     assert_true(share_over(&image, 3, 0.5f) > 0.3);
 }
 
-/// A point far from all others is drawn, small: the picture is that without it but for a few pixels.
-TEST(test_isolated_point) {
-    run_done(
-        "ewa generate sphere -n 5000 --positions-only -o bare.ply && ewa convert bare.ply -o - --ascii "
-        ">bare.txt && "
-        "sed 's/element vertex 5000/element vertex 5001/' bare.txt >lone.ply && echo 4 0 0 9 9 9 >>lone.ply");
-    run_done("ewa render lone.ply -o lone.exr --size 320x240 --save-camera lone.json "
-             "&& ewa render bare.ply -o bare.exr --size 320x240 --camera lone.json");
-    OWNED(ewa_image_free) ewa_image lone = load("lone.exr"), bare = load("bare.exr");
+/// How many pixels of two pictures, at 320x240, are off by more than a limit in some channel.
+static uint32_t count_differing(const ewa_image *a, const ewa_image *b, float limit) {
     uint32_t differing = 0;
     for (size_t i = 0; i < (size_t)320 * 240; i++) {
         float maximum = 0;
         for (uint32_t c = 0; c < 4; c++)
-            maximum = fmaxf(maximum, fabsf(lone.pixels[i * lone.channel_count + c] -
-                                           bare.pixels[i * bare.channel_count + c]));
-        differing += maximum > 0.01f;
+            maximum = fmaxf(maximum, fabsf(a->pixels[i * a->channel_count + c] - b->pixels[i * b->channel_count + c]));
+        differing += maximum > limit;
     }
-    assert_in_range(differing, 1, 40);
+    return differing;
+}
+
+/// A point far from all others is drawn, small: the picture is that without it but for a few pixels. What a covered pixel expects
+/// is a median over a sample of the surfels, which one more shifts: at outlines alpha may be another by a hundredth or three.
+TEST(test_isolated_point) {
+    static const struct {
+        const char *options;
+        float limit;
+    } cases[] = {{"--edge-aa off", 0.01f}, {"", 0.04f}};
+    run_done(
+        "ewa generate sphere -n 5000 --positions-only -o bare.ply && ewa convert bare.ply -o - --ascii "
+        ">bare.txt && "
+        "sed 's/element vertex 5000/element vertex 5001/' bare.txt >lone.ply && echo 4 0 0 9 9 9 >>lone.ply");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        run_done("ewa render lone.ply -o lone.exr --size 320x240 --save-camera lone.json %s "
+                 "&& ewa render bare.ply -o bare.exr --size 320x240 --camera lone.json %s",
+                 cases[i].options, cases[i].options);
+        OWNED(ewa_image_free) ewa_image lone = load("lone.exr"), bare = load("bare.exr");
+        assert_in_range(count_differing(&lone, &bare, cases[i].limit), 1, 40);
+    }
 }
 
 TEST(test_looks_differ) {
