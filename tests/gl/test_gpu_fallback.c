@@ -50,7 +50,9 @@ static void test_no_device(void **state) {
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);
     assert_null(renderer);
     assert_says("OpenGL: ");
-    if (access("/dev/dri", F_OK) != 0 && access("/dev/nvidiactl", F_OK) != 0) assert_says("a container has to be given the files");
+    const bool built = strstr(at.log.text, "EWA_WITH_GL") == NULL;
+    if (built && access("/dev/dri", F_OK) != 0 && access("/dev/nvidiactl", F_OK) != 0)
+        assert_says("a container has to be given the files");
     ewa_gpu_info info = {.struct_size = sizeof info};
     assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_ERROR_UNSUPPORTED);
     at.log.count = 0;
