@@ -6,7 +6,7 @@ if(NOT EWA_HAS_GL)
   return()
 endif()
 foreach(name average band codes cull divide edges eye_dome fill gaussian_draw gaussian_frame gaussian_list gaussian_project masks packet passes raster_cover raster_lines raster_near raster_payload raster_project raster_scene
-    raster_splat raster_surface raster_vertex scan scene selftest setup sort splat sums surface volume_buckets volume_draw volume_place volume_scene volume_sort wide)
+    raster_splat raster_surface raster_vertex scan scene selftest setup share_below sort splat sums surface volume_buckets volume_draw volume_place volume_scene volume_sort wide)
   set(source ${PROJECT_SOURCE_DIR}/src/gl/shaders/${name}.glsl)
   set(made ${PROJECT_BINARY_DIR}/shaders/${name}.c)
   add_custom_command(OUTPUT ${made}

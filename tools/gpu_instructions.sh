@@ -156,14 +156,14 @@ for arithmetic in native emulated; do
     for detail in bare deep; do
         splat="$own DEEP=$([ $detail = deep ] && echo 1 || echo 0) DOTS=0 AMONG=0 STAGE=0"
         kernel "Gaussians, $detail, $arithmetic" "$splat" wide scan gaussian_frame gaussian_project
-        kernel "compositing, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
+        kernel "compositing, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes share_below gaussian_draw
         edit='s/while (bits != 0u \&\& open)/while (false)/'
-        kernel "compositing without looks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
+        kernel "compositing without looks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes share_below gaussian_draw
         edit="$edit; s/^ *mark(thread.*//"
-        kernel "and without marks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes gaussian_draw
+        kernel "and without marks, $detail, $arithmetic" "$splat" wide scan gaussian_frame codes share_below gaussian_draw
         edit=
     done
-    kernel "compositing among surfaces, $arithmetic" "$own DEEP=1 DOTS=0 AMONG=1 STAGE=0" wide scan gaussian_frame codes gaussian_draw
+    kernel "compositing among surfaces, $arithmetic" "$own DEEP=1 DOTS=0 AMONG=1 STAGE=0" wide scan gaussian_frame codes share_below gaussian_draw
 done
 for arithmetic in native emulated; do
     with=$([ $arithmetic = native ] && echo 1 || echo 0)
@@ -175,11 +175,11 @@ for arithmetic in native emulated; do
     kernel "volumes: voxels to records, $arithmetic" "$own" wide volume_scene volume_place
     kernel "volumes: units of splats, $arithmetic" "$own" wide volume_scene volume_buckets
     kernel "volumes: order of splats, $arithmetic" "$own" wide volume_scene volume_sort
-    kernel "volumes: pixels, $arithmetic" "$own" wide volume_scene codes volume_draw
+    kernel "volumes: pixels, $arithmetic" "$own" wide volume_scene codes share_below volume_draw
     edit='s/for (uint bits = pixel_bits\(.*\)bits != 0u;/for (uint bits = pixel_bits\1false;/'
-    kernel "volumes: pixels without looks at points, $arithmetic" "$own" wide volume_scene codes volume_draw
+    kernel "volumes: pixels without looks at points, $arithmetic" "$own" wide volume_scene codes share_below volume_draw
     edit='s/^\( *\)else draw_splat(SPLAT_WORDS \* item);/\1else { draw_splat(SPLAT_WORDS * item); draw_splat(SPLAT_WORDS * (item ^ 1u)); }/'
-    kernel "volumes: pixels, two looks at a splat more, $arithmetic" "$own" wide volume_scene codes volume_draw
+    kernel "volumes: pixels, two looks at a splat more, $arithmetic" "$own" wide volume_scene codes share_below volume_draw
     edit=
 done
 for stage in 0 1 2; do kernel "sort, stage $stage" "STAGE=$stage" scan sort; done

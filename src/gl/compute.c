@@ -252,18 +252,7 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
 
 static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
     ewa_gl_compute *gl = state;
-    // Bands of the device are of whole pixels.
-    if (EWA_FIELD_PX % finer) return ewa_parts_draw(gl->context, &ewa_backend_gl, state, job, finer, &gl->parts, stats);
-    const double start_s = ewa_now_s();
-    ewa_render_job fine;
-    EWA_TRY(ewa_parts_start(gl->context, job, finer, &gl->parts, &fine));
-    gl->finer = finer;
-    const ewa_status status = ewa_gl_compute_draw(state, &fine, stats);
-    gl->finer = 1;
-    EWA_TRY(status);
-    ewa_parts_finish(gl->context, job, &fine);
-    stats->total_s = ewa_now_s() - start_s;
-    return EWA_OK;
+    return ewa_parts_draw_averaged(gl->context, &ewa_backend_gl, state, job, finer, &gl->parts, &gl->finer, stats);
 }
 
 void ewa_gl_describe_device(const ewa_gl *device, const ewa_gl_verdict *verdict, ewa_renderer_info *info) {

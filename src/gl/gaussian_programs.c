@@ -25,7 +25,6 @@ static const struct {
     {"MIN_KEPT", (float)EWA_GAUSSIAN_MIN_KEPT},
     {"MAX_ALPHA", (float)EWA_GAUSSIAN_MAX_ALPHA},
     {"NEAR_REACHES", (float)EWA_GAUSSIAN_NEAR},
-    {"SQRT_HALF", 0.707106781f},
     {"THINNEST", 1e-30f},
     {"LITTLE", 2e-6f},
     {"LEAST", 1e-6f},
@@ -55,7 +54,7 @@ void ewa_gl_gaussian_program_write(const ewa_gl_arithmetic *arithmetic, ewa_gl_g
              detail >= EWA_GL_SPLATS_DEEP, detail == EWA_GL_SPLATS_FLAT || detail == EWA_GL_SPLATS_FLAT_AMONG,
              detail >= EWA_GL_SPLATS_DEEP_AMONG, projects || draws ? 0 : (int)pass - EWA_GL_SPLATS_COUNT);
     const char *const pieces[] = {ewa_shader_wide, ewa_shader_scan, ewa_shader_gaussian_frame,
-                                  draws ? ewa_shader_codes : NULL,
+                                  draws ? ewa_shader_codes : NULL, draws ? ewa_shader_share_below : NULL,
                                   projects ? ewa_shader_gaussian_project : draws ? ewa_shader_gaussian_draw : ewa_shader_gaussian_list};
     source->piece_count = 0;
     for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++)

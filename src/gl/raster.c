@@ -457,18 +457,7 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
 
 static ewa_status draw_parts(void *state, const ewa_render_job *job, uint32_t finer, ewa_render_stats *stats) {
     ewa_raster *raster = state;
-    // Bands are of whole pixels.
-    if (EWA_FIELD_PX % finer) return ewa_parts_draw(raster->context, &ewa_backend_gl_raster, state, job, finer, &raster->parts, stats);
-    const double start_s = ewa_now_s();
-    ewa_render_job fine;
-    EWA_TRY(ewa_parts_start(raster->context, job, finer, &raster->parts, &fine));
-    raster->finer = finer;
-    const ewa_status status = ewa_raster_draw(state, &fine, stats);
-    raster->finer = 1;
-    EWA_TRY(status);
-    ewa_parts_finish(raster->context, job, &fine);
-    stats->total_s = ewa_now_s() - start_s;
-    return EWA_OK;
+    return ewa_parts_draw_averaged(raster->context, &ewa_backend_gl_raster, state, job, finer, &raster->parts, &raster->finer, stats);
 }
 
 static void describe(const void *state, ewa_renderer_info *info) {

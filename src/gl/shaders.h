@@ -11,7 +11,7 @@ extern const char ewa_shader_average[], ewa_shader_band[], ewa_shader_codes[], e
     ewa_shader_raster_lines[], ewa_shader_raster_near[], ewa_shader_raster_payload[],
     ewa_shader_raster_project[], ewa_shader_raster_scene[], ewa_shader_raster_splat[],
     ewa_shader_raster_surface[], ewa_shader_raster_vertex[], ewa_shader_scan[], ewa_shader_scene[], ewa_shader_selftest[],
-    ewa_shader_setup[], ewa_shader_sort[], ewa_shader_splat[], ewa_shader_sums[], ewa_shader_surface[], ewa_shader_volume_buckets[],
+    ewa_shader_setup[], ewa_shader_share_below[], ewa_shader_sort[], ewa_shader_splat[], ewa_shader_sums[], ewa_shader_surface[], ewa_shader_volume_buckets[],
     ewa_shader_volume_draw[], ewa_shader_volume_place[], ewa_shader_volume_scene[], ewa_shader_volume_sort[], ewa_shader_wide[];
 
 #endif

@@ -68,7 +68,10 @@ void ewa_gl_volume_program_write(const ewa_gl_arithmetic *arithmetic, ewa_gl_vol
     source->piece_count = 0;
     source->pieces[source->piece_count++] = ewa_shader_wide;
     source->pieces[source->piece_count++] = ewa_shader_volume_scene;
-    if (program == EWA_GL_VOLUME_DRAW) source->pieces[source->piece_count++] = ewa_shader_codes;
+    if (program == EWA_GL_VOLUME_DRAW) {
+        source->pieces[source->piece_count++] = ewa_shader_codes;
+        source->pieces[source->piece_count++] = ewa_shader_share_below;
+    }
     source->pieces[source->piece_count++] = own[program];
 }
 

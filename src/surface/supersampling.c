@@ -238,8 +238,10 @@ ewa_status ewa_parts_draw(ewa_context *context, const ewa_backend *backend, void
     return EWA_OK;
 }
 
-ewa_status ewa_parts_start(ewa_context *context, const ewa_render_job *job, uint32_t finer, ewa_buffer *room,
-                           ewa_render_job *fine) {
+/// Sets up the frame of parts for a back end that averages them itself: its planes are the averages', without bytes, in linear colours
+/// and sums of normals. `room` is memory that survives frames.
+static ewa_status start_parts(ewa_context *context, const ewa_render_job *job, uint32_t finer, ewa_buffer *room,
+                              ewa_render_job *fine) {
     *fine = finer_job(job, finer, job->first_row_px, job->end_row_px);
     fine->frame.rgba8 = NULL;
     if (!job->frame.rgba8 || job->frame.rgba) return EWA_OK;
@@ -267,11 +269,28 @@ static void finish_row(void *data, uint32_t y, uint32_t worker) {
     }
 }
 
-void ewa_parts_finish(ewa_context *context, const ewa_render_job *job, const ewa_render_job *fine) {
+/// Makes of these averages the planes of the frame.
+static void finish_parts(ewa_context *context, const ewa_render_job *job, const ewa_render_job *fine) {
     ewa_frame bytes = job->frame;
     bytes.rgba = NULL; // are there
     finish_job finish = {&fine->frame, &bytes, job->first_row_px, job->camera.width_px};
     ewa_parallel(context, finish_row, &finish, job->end_row_px - job->first_row_px);
+}
+
+ewa_status ewa_parts_draw_averaged(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                                   uint32_t finer, ewa_buffer *room, uint32_t *averaged, ewa_render_stats *stats) {
+    // Bands are of whole fields.
+    if (EWA_FIELD_PX % finer) return ewa_parts_draw(context, backend, state, job, finer, room, stats);
+    const double start_s = ewa_now_s();
+    ewa_render_job fine;
+    EWA_TRY(start_parts(context, job, finer, room, &fine));
+    *averaged = finer;
+    const ewa_status status = backend->draw(state, &fine, stats);
+    *averaged = 1;
+    EWA_TRY(status);
+    finish_parts(context, job, &fine);
+    stats->total_s = ewa_now_s() - start_s;
+    return EWA_OK;
 }
 
 /// Draws every pixel as `finer` squared, by the back end's own averages if it makes some.

@@ -19,13 +19,10 @@ ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backe
 ewa_status ewa_parts_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
                           uint32_t finer, ewa_buffer *room, ewa_render_stats *stats);
 
-/// Sets up the frame of parts for a back end that averages them itself: its planes are the averages', without bytes, in linear colours
-/// and sums of normals. `room` is memory that survives frames. Errors: EWA_ERROR_MEMORY.
-ewa_status ewa_parts_start(ewa_context *context, const ewa_render_job *job, uint32_t finer, ewa_buffer *room,
-                           ewa_render_job *fine);
-
-/// Makes of these averages the planes of the frame.
-void ewa_parts_finish(ewa_context *context, const ewa_render_job *job, const ewa_render_job *fine);
+/// ewa_parts_draw() by a back end whose draw() averages the parts itself while `*averaged`, else 1, is `finer`, where fields hold
+/// whole pixels.
+ewa_status ewa_parts_draw_averaged(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
+                                   uint32_t finer, ewa_buffer *room, uint32_t *averaged, ewa_render_stats *stats);
 
 /// Two pictures of a frame that become one.
 typedef struct ewa_frame_pair {
